@@ -35,6 +35,10 @@ pub struct Statistics {
     /// depend on the SIMD level.
     #[doc(hidden)]
     pub fragments_across_triangles: [u64; 2],
+    /// Parts of packets that were shaded together with those of other triangles at the same place.
+    /// They depend on the SIMD level.
+    #[doc(hidden)]
+    pub packets_joined: u64,
     /// Covered samples of small triangles that were tested as lists. They depend on the SIMD level.
     #[doc(hidden)]
     pub small_triangle_pixels: u64,
@@ -87,6 +91,7 @@ impl std::ops::AddAssign for Statistics {
         self.small_triangle_pixels += other.small_triangle_pixels;
         self.triangles_set_up_in_lanes += other.triangles_set_up_in_lanes;
         self.triangles_gathered += other.triangles_gathered;
+        self.packets_joined += other.packets_joined;
         self.visibility_runs += other.visibility_runs;
         self.paths += other.paths;
         self.groups_of_geometry += other.groups_of_geometry;

@@ -31,6 +31,9 @@ pub trait Surface {
     fn varyings_at(&self, pixel: [u32; 2], _place: [u8; 2]) -> Vec<f32> {
         self.varyings(pixel)
     }
+    /// The derivatives of the varyings' scalars along x and y, at a position in the pixel, in 1/16
+    /// pixel. NUMERICS.md, *Derivatives of varyings*.
+    fn derivatives_at(&self, pixel: [u32; 2], place: [u8; 2]) -> Vec<[f32; 2]>;
     /// A factor for the alpha of every colour, if the primitive has one: the coverage of smooth
     /// lines.
     fn alpha(&self, _pixel: [u32; 2]) -> Option<f32> {
@@ -125,6 +128,22 @@ impl Surface for TriangleSurface {
         };
         self.varyings.iter().map(value).collect()
     }
+
+    fn derivatives_at(&self, pixel: [u32; 2], place: [u8; 2]) -> Vec<[f32; 2]> {
+        let at = sample_window(pixel, place);
+        let w = 1.0 / self.inverse_w.at(at);
+        let of_w = [self.inverse_w.per_x, self.inverse_w.per_y];
+        let derivatives = |varying: &Varying| match varying {
+            Varying::OverW(plane) => {
+                let value = plane.at(at) * w;
+                let slopes = [plane.per_x, plane.per_y];
+                [0, 1].map(|axis: usize| (slopes[axis] - value * of_w[axis]) * w)
+            }
+            Varying::Affine(plane) => [plane.per_x + 0.0, plane.per_y + 0.0],
+            Varying::Constant(_) => [0.0; 2],
+        };
+        self.varyings.iter().map(derivatives).collect()
+    }
 }
 
 /// A fragment after the fragment shader; its depth is clamped to the viewport's range.
@@ -216,7 +235,22 @@ pub fn quad_input<'a>(
             // sample's.
             Some(Sampling::Center | Sampling::Sample) | None => center[k],
         };
-        (0..interface.varyings.len()).map(scalar).collect()
+        let (place, centroid) = (
+            invocation.place(lane, Sampling::Center),
+            invocation.place(lane, Sampling::Centroid),
+        );
+        let derivatives =
+            [place, centroid].map(|place| surface.derivatives_at(pixels[lane], place));
+        let derivative = |axis: usize| {
+            let of = &derivatives;
+            let scalars = interface.gradients.iter();
+            scalars.map(move |&k| match interface.sampling.get(k) {
+                Some(Sampling::Centroid) => of[1][k][axis],
+                _ => of[0][k][axis],
+            })
+        };
+        let scalars = (0..interface.varyings.len()).map(scalar);
+        scalars.chain(derivative(0)).chain(derivative(1)).collect()
     });
     QuadInput {
         positions,

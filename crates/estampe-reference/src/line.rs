@@ -172,6 +172,43 @@ impl Surface for LineSurface<'_> {
         let t = self.path.fraction(pixel);
         mix_ends(self.ends, self.modes, self.flat, t)
     }
+
+    fn derivatives_at(&self, pixel: [u32; 2], _place: [u8; 2]) -> Vec<[f32; 2]> {
+        let slope = 256.0 / self.path.delta(self.path.major) as f32;
+        let mut slopes = [0.0; 2];
+        slopes[self.path.major] = slope;
+        derivatives_of_ends(
+            self.ends,
+            self.modes,
+            &self.varyings(pixel),
+            (self.path.fraction(pixel), slopes),
+        )
+    }
+}
+
+/// The derivatives of varyings, given their values, along x and y: those of the fraction `t`
+/// between two ends are `slopes`.
+#[must_use]
+pub fn derivatives_of_ends(
+    [a, b]: [&WindowVertex; 2],
+    modes: &[Interpolation],
+    values: &[f32],
+    (t, slopes): (f32, [f32; 2]),
+) -> Vec<[f32; 2]> {
+    let w_is_constant = a.inverse_w.to_bits() == b.inverse_w.to_bits();
+    let w = 1.0 / mix(a.inverse_w, b.inverse_w, t);
+    let derivatives = |(k, mode): (usize, &Interpolation)| match mode {
+        Interpolation::Flat => [0.0; 2],
+        Interpolation::Smooth if !w_is_constant => {
+            let change = b.varyings[k] * b.inverse_w - a.varyings[k] * a.inverse_w;
+            let of_w = b.inverse_w - a.inverse_w;
+            slopes.map(|slope| (change * slope - values[k] * (of_w * slope)) * w)
+        }
+        Interpolation::Smooth | Interpolation::NoPerspective => {
+            slopes.map(|slope| (b.varyings[k] - a.varyings[k]) * slope)
+        }
+    };
+    modes.iter().enumerate().map(derivatives).collect()
 }
 
 /// The varyings at a fraction between two ends.

@@ -76,4 +76,8 @@ impl Surface for PointSurface<'_> {
         };
         self.modes.iter().enumerate().map(value).collect()
     }
+
+    fn derivatives_at(&self, _pixel: [u32; 2], _place: [u8; 2]) -> Vec<[f32; 2]> {
+        vec![[0.0; 2]; self.modes.len()]
+    }
 }

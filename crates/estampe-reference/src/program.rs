@@ -44,7 +44,8 @@ pub struct QuadInput<'a> {
     pub sample_index: u32,
     /// The covered samples.
     pub coverage: [u16; 4],
-    /// The interpolated scalars of the varyings.
+    /// The interpolated scalars of the varyings, then the derivatives along x, and along y, of those
+    /// that the interface lists in `gradients`.
     pub varyings: [Vec<f32>; 4],
     /// The resources of the draw.
     pub bindings: &'a Bindings,
@@ -113,8 +114,17 @@ impl<S: Shader> Shaders for RustShaders<'_, S> {
             bindings: input.bindings,
             zero: Quad([0.0; 4]),
         };
+        let of_lanes = |from: usize, count: usize| {
+            let lanes = input.varyings.each_ref();
+            lanes.map(|scalars| scalars[from..][..count].iter())
+        };
+        let (values, each) = (
+            self.interface.varyings.len(),
+            self.interface.gradients.len(),
+        );
         let mut varyings = QuadScalars {
-            lanes: input.varyings.each_ref().map(|scalars| scalars.iter()),
+            lanes: of_lanes(0, values),
+            derivatives: [of_lanes(values, each), of_lanes(values + each, each)],
         };
         let output = self
             .shader
@@ -209,7 +219,7 @@ impl Shaders for ProgramShaders<'_> {
 
     fn quad(&self, input: &QuadInput<'_>) -> [ShadedFragment; 4] {
         let interface = self.program.interface();
-        let scalars = 0..interface.varyings.len();
+        let scalars = 0..interface.fragment_scalars();
         let varyings: Vec<_> = scalars
             .map(|k| quads(input.varyings.each_ref().map(|lane| lane[k])))
             .collect();
@@ -274,12 +284,24 @@ impl Source<f32> for Scalars<'_> {
 
 /// The scalars of four lanes as a source of quads.
 struct QuadScalars<'a> {
-    lanes: [std::slice::Iter<'a, f32>; 4],
+    lanes: Lanes<'a>,
+    /// Derivatives along x and along y.
+    derivatives: [Lanes<'a>; 2],
 }
+
+type Lanes<'a> = [std::slice::Iter<'a, f32>; 4];
 
 impl Source<Quad> for QuadScalars<'_> {
     fn take(&mut self) -> Quad {
-        let next = |lane: &mut std::slice::Iter<'_, f32>| lane.next().copied().unwrap_or_default();
-        Quad(self.lanes.each_mut().map(next))
+        next(&mut self.lanes)
     }
+
+    fn take_derivative(&mut self, axis: usize, _like: Quad) -> Quad {
+        next(&mut self.derivatives[axis])
+    }
+}
+
+fn next(lanes: &mut Lanes<'_>) -> Quad {
+    let next = |lane: &mut std::slice::Iter<'_, f32>| lane.next().copied().unwrap_or_default();
+    Quad(lanes.each_mut().map(next))
 }

@@ -14,7 +14,7 @@
 use crate::WindowVertex;
 use crate::arithmetic::round_half_even;
 use crate::fragment::{CENTER, Surface};
-use crate::line::mix_ends;
+use crate::line::{derivatives_of_ends, mix_ends};
 use crate::raster::{self, Edge, QuadCoverage, sample_subpixel};
 use crate::viewport::PixelBounds;
 use estampe_types::shader::Interpolation;
@@ -109,6 +109,14 @@ impl LineRectangle {
         product as f32 / square as f32
     }
 
+    /// How the position along the line changes from a pixel to the next one on the right, and to the
+    /// next one below.
+    #[must_use]
+    pub fn slopes(&self) -> [f32; 2] {
+        let [_, square] = self.along([0; 2]);
+        [0, 1].map(|axis: usize| 256.0 * (self.end[axis] - self.start[axis]) as f32 / square as f32)
+    }
+
     /// The distance from the start to a pixel's centre along the line, in 1/65536 pixel, rounded
     /// down; 0 before the start.
     #[must_use]
@@ -170,6 +178,12 @@ impl Surface for RectangleSurface<'_> {
     fn varyings(&self, pixel: [u32; 2]) -> Vec<f32> {
         let t = self.rectangle.fraction(pixel, CENTER);
         mix_ends(self.ends, self.modes, self.flat, t)
+    }
+
+    fn derivatives_at(&self, pixel: [u32; 2], _place: [u8; 2]) -> Vec<[f32; 2]> {
+        let t = self.rectangle.fraction(pixel, CENTER);
+        let slopes = self.rectangle.slopes();
+        derivatives_of_ends(self.ends, self.modes, &self.varyings(pixel), (t, slopes))
     }
 
     fn alpha(&self, pixel: [u32; 2]) -> Option<f32> {

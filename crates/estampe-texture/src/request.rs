@@ -23,8 +23,26 @@ use estampe_types::{Int, Quad, Real, Vec2, Vec4};
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Request<'a> {
     pub(crate) uv: [&'a Packet<f32>; 2],
-    /// Levels of detail; without them, they are computed from the quads.
-    pub(crate) lod: Option<&'a Packet<f32>>,
+    pub(crate) detail: RequestDetail<'a>,
+}
+
+/// The source of a request's levels of detail.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum RequestDetail<'a> {
+    /// The differences within quads.
+    Quads,
+    /// These levels of detail.
+    Level(&'a Packet<f32>),
+    /// The derivatives of u and v along x, then along y.
+    Gradients([&'a Packet<f32>; 4]),
+}
+
+/// [`RequestDetail`] as a shader gives it.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Detail<R: Real> {
+    Quads,
+    Level(R),
+    Gradients([Vec2<R>; 2]),
 }
 
 /// Lanes of a quad.
@@ -36,21 +54,30 @@ impl Request<'_> {
     #[inline(always)]
     fn with<R: Real, T>(
         uv: Vec2<R>,
-        lod: Option<R>,
+        detail: Detail<R>,
         first: usize,
         ask: impl FnOnce(&Request<'_>) -> T,
     ) -> T {
         let (u, v) = (packet(uv.x, first), packet(uv.y, first));
-        let lods;
-        let mut request = Request {
-            uv: [&u, &v],
-            lod: None,
+        let (levels, derivatives);
+        let detail = match detail {
+            Detail::Quads => RequestDetail::Quads,
+            Detail::Level(lod) => {
+                levels = packet(lod, first);
+                RequestDetail::Level(&levels)
+            }
+            Detail::Gradients([along_x, along_y]) => {
+                derivatives = [
+                    packet(along_x.x, first),
+                    packet(along_x.y, first),
+                    packet(along_y.x, first),
+                    packet(along_y.y, first),
+                ];
+                RequestDetail::Gradients(derivatives.each_ref())
+            }
         };
-        if let Some(lod) = lod {
-            lods = packet(lod, first);
-            request.lod = Some(&lods);
-        }
-        ask(&request)
+        let uv = [&u, &v];
+        ask(&Request { uv, detail })
     }
 
     #[inline(always)]
@@ -64,14 +91,20 @@ impl Request<'_> {
         Vec2::new(self.uv[0].0[lane], self.uv[1].0[lane])
     }
 
-    /// The level of detail of a packet's lane: the given one, or that of its quad.
+    /// The level of detail of a packet's lane.
     fn lod_of_lane(&self, lane: usize, size: [f32; 2]) -> f32 {
-        if let Some(lod) = self.lod {
-            return lod.0[lane];
+        match self.detail {
+            RequestDetail::Quads => {
+                let [first, right, below] = [0, 1, 2].map(|k| self.of_lane((lane & !3) + k));
+                let minus = |a: Vec2<f32>, b: Vec2<f32>| Vec2::new(a.x - b.x, a.y - b.y);
+                level_of_detail(rho2(minus(right, first), minus(below, first), size))
+            }
+            RequestDetail::Level(levels) => levels.0[lane],
+            RequestDetail::Gradients(derivatives) => {
+                let [ux, vx, uy, vy] = derivatives.map(|of_lanes| of_lanes.0[lane]);
+                level_of_detail(rho2(Vec2::new(ux, vx), Vec2::new(uy, vy), size))
+            }
         }
-        let [first, right, below] = [0, 1, 2].map(|k| self.of_lane((lane & !3) + k));
-        let minus = |a: Vec2<f32>, b: Vec2<f32>| Vec2::new(a.x - b.x, a.y - b.y);
-        level_of_detail(rho2(minus(right, first), minus(below, first), size))
     }
 }
 
@@ -81,12 +114,12 @@ impl Rgba8Texture {
     pub(crate) fn sample_lanes<R: Real>(
         &self,
         uv: Vec2<R>,
-        lod: Option<R>,
+        detail: Detail<R>,
         first: usize,
     ) -> Answers {
         Request::with(
             uv,
-            lod,
+            detail,
             first,
             #[inline(always)]
             |request| {
@@ -106,14 +139,14 @@ impl Rgba8Texture {
     #[inline(always)]
     pub(crate) fn sample_all_lanes<R: Real>(
         textures: &[&Self],
-        uv: Vec2<R>,
+        (uv, detail): (Vec2<R>, Detail<R>),
         first: usize,
         colors: &mut [Answers],
     ) {
         if let Some(level) = uv.x.level() {
             Request::with(
                 uv,
-                None,
+                detail,
                 first,
                 #[inline(always)]
                 |request| Self::sample_all_packets(textures, level, request, colors),
@@ -121,7 +154,7 @@ impl Rgba8Texture {
             return;
         }
         for (texture, colors) in textures.iter().zip(colors) {
-            *colors = texture.sample_lanes(uv, None, first);
+            *colors = texture.sample_lanes(uv, detail, first);
         }
     }
 
@@ -178,13 +211,21 @@ impl Rgba8Texture {
         if let Some((lod, level)) = self.fixed_lod() {
             return (uv, like.splat(lod), level);
         }
-        if let Some(lod) = request.lod {
-            let lod = load(like, lod, first);
-            let within = lod.clamp(self.lod_range[0], self.lod_range[1]);
-            let (level, _) = mixture(within, self.sampler.mipmap_filter);
-            return (uv, lod, level.to_int_within_range().lane(0));
-        }
-        let rho2 = implicit_rho2(uv, self.levels[0].size);
+        let size = self.levels[0].size;
+        let rho2 = match request.detail {
+            RequestDetail::Quads => implicit_rho2(uv, size),
+            RequestDetail::Level(levels) => {
+                let lod = load(like, levels, first);
+                let within = lod.clamp(self.lod_range[0], self.lod_range[1]);
+                let (level, _) = mixture(within, self.sampler.mipmap_filter);
+                return (uv, lod, level.to_int_within_range().lane(0));
+            }
+            RequestDetail::Gradients([ux, vx, uy, vy]) => {
+                let along_x = Vec2::new(load(like, ux, first), load(like, vx, first));
+                let along_y = Vec2::new(load(like, uy, first), load(like, vy, first));
+                rho2(along_x, along_y, size)
+            }
+        };
         (uv, level_of_detail(rho2), self.guess_of_level(rho2))
     }
 

@@ -1,8 +1,8 @@
 //! [`Rgba8Texture`]: the common kind of texture with a sampler, as a shader holds it.
 
 use crate::filter::{Inside, Level, mix_colors, sample_level};
-use crate::lod::{level_of_detail, rho2};
 use crate::mixed::Mixed;
+use crate::request::Detail;
 use crate::texel::{Number, finish, linear_of_any, unpack};
 use crate::view::{Answers, by_sixteen, packed};
 use crate::wrap::wrap;
@@ -105,7 +105,7 @@ impl Rgba8Texture {
     #[inline(always)]
     pub fn sample<R: Real>(&self, uv: Vec2<R>) -> Vec4<R> {
         uv.x.takes_derivatives();
-        self.request(uv, None)
+        self.request(uv, Detail::Quads)
     }
 
     /// Samples several textures at the same coordinates, such as a surface's colour and its normal
@@ -116,11 +116,21 @@ impl Rgba8Texture {
     #[inline(always)]
     pub fn sample_all<R: Real, const N: usize>(textures: [&Self; N], uv: Vec2<R>) -> [Vec4<R>; N] {
         uv.x.takes_derivatives();
+        Self::sample_all_with(textures, uv, Detail::Quads)
+    }
+
+    /// Samples several textures at the same coordinates and levels of detail.
+    #[inline(always)]
+    pub(crate) fn sample_all_with<R: Real, const N: usize>(
+        textures: [&Self; N],
+        uv: Vec2<R>,
+        detail: Detail<R>,
+    ) -> [Vec4<R>; N] {
         let mut answers = [Answers::default(); N];
-        Self::sample_all_lanes(&textures, uv, 0, &mut answers);
+        Self::sample_all_lanes(&textures, (uv, detail), 0, &mut answers);
         let mut others = answers;
         if R::LANES > LANES {
-            Self::sample_all_lanes(&textures, uv, LANES, &mut others);
+            Self::sample_all_lanes(&textures, (uv, detail), LANES, &mut others);
         }
         let mut colors = [Vec4::repeat(uv.x); N];
         for ((color, first), second) in colors.iter_mut().zip(&answers).zip(&others) {
@@ -132,11 +142,11 @@ impl Rgba8Texture {
     /// Samples sixteen lanes at a time through `request.rs`, whose code is not compiled into the
     /// shader.
     #[inline(always)]
-    fn request<R: Real>(&self, uv: Vec2<R>, lod: Option<R>) -> Vec4<R> {
+    fn request<R: Real>(&self, uv: Vec2<R>, detail: Detail<R>) -> Vec4<R> {
         by_sixteen(
             uv.x,
             #[inline(always)]
-            |first| self.sample_lanes(uv, lod, first),
+            |first| self.sample_lanes(uv, detail, first),
         )
     }
 
@@ -144,14 +154,14 @@ impl Rgba8Texture {
     /// y.
     #[inline(always)]
     pub fn sample_grad<R: Real>(&self, uv: Vec2<R>, dx: Vec2<R>, dy: Vec2<R>) -> Vec4<R> {
-        self.sample_level(uv, level_of_detail(rho2(dx, dy, self.levels[0].size)))
+        self.request(uv, Detail::Gradients([dx, dy]))
     }
 
     /// Samples at (u, v) at a level of detail: 0 is the base level, each further level is half as
     /// large.
     #[inline(always)]
     pub fn sample_level<R: Real>(&self, uv: Vec2<R>, lod: R) -> Vec4<R> {
-        self.request(uv, Some(lod))
+        self.request(uv, Detail::Level(lod))
     }
 
     /// The texel (x, y) of a level, without filtering; coordinates outside are clamped to the edge.

@@ -74,4 +74,10 @@ pub trait Int:
     }
     /// One lane's value; `index` is below the number of lanes.
     fn lane(self, index: usize) -> i32;
+    /// [`Int::lane`] for a sampler that stores all lanes; see [`Real::lane_to_store`].
+    #[doc(hidden)]
+    #[inline(always)]
+    fn lane_to_store(self, index: usize) -> i32 {
+        self.lane(index)
+    }
 }

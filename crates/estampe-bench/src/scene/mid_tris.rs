@@ -13,7 +13,7 @@ use estampe::SampledTexture;
 use estampe::state::{CullMode, MultisampleState, PrimitiveState};
 use estampe::{
     FragmentIn, FragmentOut, Mat4, RenderPipelineDescriptor, Vec2, Vec3, Vec4, VertexFormat,
-    VertexIn, VertexOut, maths,
+    VertexIn, VertexOut, WithGradient, maths,
 };
 
 /// The camera's position in world space; it looks at the origin.
@@ -36,26 +36,26 @@ estampe::shader! {
         // Position, normal, tangent with handedness, texture coordinate.
         type Attributes<R: Real> = (Vec3<R>, Vec3<R>, Vec4<R>, Vec2<R>);
         // The same values in world space.
-        type Varyings<R: Real> = (Vec3<R>, Vec3<R>, Vec4<R>, Vec2<R>);
+        type Varyings<R: Real> = (Vec3<R>, Vec3<R>, Vec4<R>, WithGradient<Vec2<R>>);
 
         fn vertex<R: Real>(
             &self,
             _input: VertexIn<'_, R>,
             (position, normal, tangent, uv): (Vec3<R>, Vec3<R>, Vec4<R>, Vec2<R>),
-        ) -> VertexOut<R, (Vec3<R>, Vec3<R>, Vec4<R>, Vec2<R>)> {
+        ) -> VertexOut<R, (Vec3<R>, Vec3<R>, Vec4<R>, WithGradient<Vec2<R>>)> {
             let position_world = self.world_from_object.transform_point(position).xyz();
             let normal_world = self.world_from_object.transform_vector(normal);
             let tangent_world = self.world_from_object.transform_vector(tangent.xyz());
             VertexOut::new(
                 self.clip_from_object.transform_point(position),
-                (position_world, normal_world, tangent_world.extend(tangent.w), uv),
+                (position_world, normal_world, tangent_world.extend(tangent.w), uv.into()),
             )
         }
 
         fn fragment<R: Real>(
             &self,
             input: FragmentIn<'_, R>,
-            (position, normal, tangent, uv): (Vec3<R>, Vec3<R>, Vec4<R>, Vec2<R>),
+            (position, normal, tangent, uv): (Vec3<R>, Vec3<R>, Vec4<R>, WithGradient<Vec2<R>>),
         ) -> FragmentOut<R> {
             let maps = [&self.diffuse_map, &self.normal_map];
             let [albedo, mapped] = SampledTexture::sample_all(maps, uv);

@@ -12,7 +12,7 @@ use crate::generate::{
 use estampe::state::{CullMode, PrimitiveState};
 use estampe::{
     FragmentIn, FragmentOut, Real, RenderPipelineDescriptor, SampledTexture, Vec2, Vec3,
-    VertexFormat, VertexIn, VertexOut, maths, sample_compare_sum,
+    VertexFormat, VertexIn, VertexOut, WithGradient, maths, sample_compare_sum,
 };
 
 /// Bytes between the torus's and the ground's uniforms.
@@ -58,13 +58,13 @@ estampe::shader! {
     impl Shader for Shadowed {
         type Attributes<R: Real> = (Vec3<R>, Vec3<R>, Vec2<R>); // position, normal, texture coordinate
         // Position and normal in world space, texture coordinate, (u, v) in the map and depth.
-        type Varyings<R: Real> = (Vec3<R>, Vec3<R>, Vec2<R>, Vec3<R>);
+        type Varyings<R: Real> = (Vec3<R>, Vec3<R>, WithGradient<Vec2<R>>, Vec3<R>);
 
         fn vertex<R: Real>(
             &self,
             input: VertexIn<'_, R>,
             (position, normal, uv): (Vec3<R>, Vec3<R>, Vec2<R>),
-        ) -> VertexOut<R, (Vec3<R>, Vec3<R>, Vec2<R>, Vec3<R>)> {
+        ) -> VertexOut<R, (Vec3<R>, Vec3<R>, WithGradient<Vec2<R>>, Vec3<R>)> {
             let matrix = |offset: u32| input.bindings.mat4(0, 0, offset);
             let world_from_object = matrix(WORLD_FROM_OBJECT);
             let position_world = world_from_object.transform_point(position).xyz();
@@ -78,14 +78,14 @@ estampe::shader! {
             );
             VertexOut::new(
                 matrix(CLIP_FROM_OBJECT).transform_point(position),
-                (position_world, normal_world, uv, in_map),
+                (position_world, normal_world, uv.into(), in_map),
             )
         }
 
         fn fragment<R: Real>(
             &self,
             input: FragmentIn<'_, R>,
-            (position, normal, uv, in_map): (Vec3<R>, Vec3<R>, Vec2<R>, Vec3<R>),
+            (position, normal, uv, in_map): (Vec3<R>, Vec3<R>, WithGradient<Vec2<R>>, Vec3<R>),
         ) -> FragmentOut<R> {
             let albedo = self.diffuse_map.sample(uv).xyz();
             let n = normal.normalize();

@@ -14,7 +14,7 @@ use crate::generate::{
 use estampe::SampledTexture;
 use estampe::{
     FragmentIn, FragmentOut, Mat4, RenderPipelineDescriptor, Vec2, Vec3, VertexFormat, VertexIn,
-    VertexOut,
+    VertexOut, WithGradient,
 };
 
 const QUADS: u32 = 16;
@@ -28,17 +28,21 @@ struct Textured {
 estampe::shader! {
     impl Shader for Textured {
         type Attributes<R: Real> = (Vec3<R>, Vec2<R>); // position, texture coordinate
-        type Varyings<R: Real> = Vec2<R>;              // texture coordinate
+        type Varyings<R: Real> = WithGradient<Vec2<R>>; // texture coordinate
 
         fn vertex<R: Real>(
             &self,
             _input: VertexIn<'_, R>,
             (position, uv): (Vec3<R>, Vec2<R>),
-        ) -> VertexOut<R, Vec2<R>> {
-            VertexOut::new(self.clip_from_view.transform_point(position), uv)
+        ) -> VertexOut<R, WithGradient<Vec2<R>>> {
+            VertexOut::new(self.clip_from_view.transform_point(position), uv.into())
         }
 
-        fn fragment<R: Real>(&self, _input: FragmentIn<'_, R>, uv: Vec2<R>) -> FragmentOut<R> {
+        fn fragment<R: Real>(
+            &self,
+            _input: FragmentIn<'_, R>,
+            uv: WithGradient<Vec2<R>>,
+        ) -> FragmentOut<R> {
             FragmentOut::color(self.texture.sample(uv))
         }
     }

@@ -5,7 +5,7 @@
 //! together; a row's lanes take theirs by permutations, so interpolation costs little more than it
 //! does for one triangle, and no lane is empty but in the last row.
 
-use super::interpolate::VaryingSource;
+use super::interpolate::{VaryingSource, smooth_derivatives};
 use crate::bounds::primitives::{TrianglePacket, VertexRef};
 use crate::raster::pixel_list::Pixels;
 use crate::raster::small::PIXELS;
@@ -119,6 +119,8 @@ pub(crate) struct CrossPlanes {
     iw: [Packet<f32>; 3],
     /// True if those of all triangles are equal.
     equal_w: bool,
+    /// The triangles whose three are equal.
+    equal_ws: u16,
 }
 
 impl CrossPlanes {
@@ -147,6 +149,7 @@ impl CrossPlanes {
             *iw = equal_w.select(one, f32x16::load_array_ref(s, values));
         }
         self.equal_w = packet.equal_w & lanes == lanes;
+        self.equal_ws = packet.equal_w & lanes;
         let zero = <f32x16<S> as SimdBase<S>>::splat(s, 0.0);
         let planes = [
             (&packet.iw.origin, one),
@@ -246,13 +249,14 @@ impl CrossPlanes {
         &self,
         s: S,
         row: Row<S>,
-        modes: &[Interpolation],
+        source: &VaryingSource<'_>,
         distances: [f32x16<S>; 2],
         out: &mut [Packet<f32>],
     ) {
         let lane = row.pixels.lane();
         let kept = s.mask_from_bits(row.lanes);
         let one = <f32x16<S> as SimdBase<S>>::splat(s, 1.0);
+        let (out, derivatives) = out.split_at_mut(source.modes.len());
         let [origin, dx, dy] = &self.iw;
         let w = if self.equal_w {
             one
@@ -260,7 +264,7 @@ impl CrossPlanes {
             one / evaluate(s, [origin, dx, dy], lane, distances)
         };
         let planes = self.corners[0].iter().zip(self.dx.iter().zip(&self.dy));
-        for ((mode, out), (origin, (dx, dy))) in modes.iter().zip(out).zip(planes) {
+        for ((mode, out), (origin, (dx, dy))) in source.modes.iter().zip(&mut *out).zip(planes) {
             let mut value = if *mode == Interpolation::Flat {
                 s.permute_f32(f32x16::load_array_ref(s, &origin.0), lane)
             } else {
@@ -274,7 +278,62 @@ impl CrossPlanes {
             }
             value.store_array(&mut out.0);
         }
+        if !source.gradients.is_empty() {
+            self.derivatives(s, row, (source, w), out, derivatives);
+        }
     }
+
+    /// The derivatives of some of a row's varyings, along x, then along y.
+    #[inline(always)]
+    fn derivatives<S: Lanes>(
+        &self,
+        s: S,
+        row: Row<S>,
+        (source, w): (&VaryingSource<'_>, f32x16<S>),
+        varyings: &[Packet<f32>],
+        out: &mut [Packet<f32>],
+    ) {
+        let lane = row.pixels.lane();
+        let kept = s.mask_from_bits(row.lanes);
+        let of_iw = [
+            of_lanes(s, &self.iw[1], lane),
+            of_lanes(s, &self.iw[2], lane),
+        ];
+        let is_level = s.mask_from_bits(bits_of_row(s, self.equal_ws, row));
+        let zero = <f32x16<S> as SimdBase<S>>::splat(s, 0.0);
+        let (along_x, along_y) = out.split_at_mut(source.gradients.len());
+        for ((along_x, along_y), &k) in along_x.iter_mut().zip(along_y).zip(source.gradients) {
+            let value = f32x16::load_array_ref(s, &varyings[k].0);
+            let slopes = [
+                of_lanes(s, &self.dx[k], lane),
+                of_lanes(s, &self.dy[k], lane),
+            ];
+            let smooth = smooth_derivatives(slopes, value, of_iw, w);
+            // As of one triangle, see `TriangleInterpolant`.
+            let linear = [slopes[0] + 0.0, slopes[1] + 0.0];
+            let [mut x, mut y] = match source.modes[k] {
+                Interpolation::Flat => [zero; 2],
+                Interpolation::NoPerspective => linear,
+                Interpolation::Smooth if self.equal_w => linear,
+                Interpolation::Smooth => [
+                    is_level.select(linear[0], smooth[0]),
+                    is_level.select(linear[1], smooth[1]),
+                ],
+            };
+            if row.is_open {
+                x = kept.select(x, f32x16::load_array_ref(s, &along_x.0));
+                y = kept.select(y, f32x16::load_array_ref(s, &along_y.0));
+            }
+            x.store_array(&mut along_x.0);
+            y.store_array(&mut along_y.0);
+        }
+    }
+}
+
+/// A value of the lanes' triangles.
+#[inline(always)]
+fn of_lanes<S: Lanes>(s: S, values: &Packet<f32>, lane: u32x16<S>) -> f32x16<S> {
+    s.permute_f32(f32x16::load_array_ref(s, &values.0), lane)
 }
 
 /// The lanes of a row whose bit is set for their triangle.
@@ -331,6 +390,7 @@ mod tests {
                 shaded: &shaded,
                 clipped: &[],
                 modes: &vec![Interpolation::NoPerspective; scalars],
+                gradients: &[],
             };
             for level in Level::all_available() {
                 let mut planes = CrossPlanes::default();

@@ -185,6 +185,18 @@ pub enum PipelineError {
         /// The largest number of each allowed.
         limit: usize,
     },
+    /// The program reads the derivative of a varying that it does not have, or does not list them in
+    /// ascending order.
+    #[error(
+        "the program reads the derivative of scalar {scalar} of its {count} scalars of varyings: \
+         list scalars that exist, in ascending order"
+    )]
+    Gradient {
+        /// The scalar.
+        scalar: usize,
+        /// The number of scalars of varyings.
+        count: usize,
+    },
     /// Too many varyings.
     #[error(
         "the shader has {count} scalars of varyings; the limit max_inter_stage_scalars is {limit}"

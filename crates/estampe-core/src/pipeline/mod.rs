@@ -344,6 +344,16 @@ fn check_interface(interface: &Interface, limits: &Limits) -> Result<(), Pipelin
             limit: limits.max_inter_stage_scalars,
         });
     }
+    let gradients = &interface.gradients;
+    for (number, &scalar) in gradients.iter().enumerate() {
+        if scalar >= count
+            || gradients[..number]
+                .last()
+                .is_some_and(|&before| before >= scalar)
+        {
+            return Err(PipelineError::Gradient { scalar, count });
+        }
+    }
     Ok(())
 }
 

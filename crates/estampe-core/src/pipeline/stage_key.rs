@@ -31,6 +31,8 @@ pub(crate) struct StageKey {
     /// Fragments whose varyings are the same, and those of the whole packet, have the same colours;
     /// nothing else comes of them.
     pub(crate) depends_on_varyings_alone: bool,
+    /// Fragments are shaded without looking at others of their quad.
+    pub(crate) needs_no_quads: bool,
     /// A fragment's one colour depends on its own varyings alone.
     pub(crate) fragments_are_independent: bool,
     /// The fragments' one colour is their first four scalars, so that the program need not be
@@ -123,6 +125,7 @@ impl StageKey {
             depends_on_varyings_alone: tests_early
                 && is_shaded_by_pixel
                 && !interface.reads_position,
+            needs_no_quads: interface.no_derivatives,
             fragments_are_independent: interface.no_derivatives
                 && !interface.reads_position
                 && interface.color_targets == 1,

@@ -238,6 +238,7 @@ impl<'a> TileWork<'a> {
             shaded: self.plan.varyings,
             clipped: &self.chunk.clipped_varyings,
             modes: &self.plan.pipeline.interface().varyings,
+            gradients: &self.plan.pipeline.interface().gradients,
         }
     }
 }

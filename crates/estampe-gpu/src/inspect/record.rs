@@ -200,11 +200,13 @@ impl Observer for Recorder<'_> {
             invocation,
             event.clamp_depth,
         );
+        let varyings = self.shaders.interface().varyings.len();
         let fragment = FragmentRecord {
             sample: invocation.sample,
             covered: event.covered,
             position: input.positions[event.lane],
-            varyings: std::mem::take(&mut input.varyings[event.lane]),
+            // Without the derivatives that follow them.
+            varyings: input.varyings[event.lane].drain(..varyings).collect(),
             colors: event.fragment.colors.clone(),
             depth: event.fragment.depth,
             is_discarded: event.fragment.is_discarded,

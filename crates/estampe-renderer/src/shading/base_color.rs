@@ -2,7 +2,7 @@
 //! colours.
 
 use super::bump::BumpMap;
-use estampe::{Attributes, FragmentIn, Real, SampledTexture, Varyings, Vec2, Vec4};
+use estampe::{Attributes, FragmentIn, Real, SampledTexture, Varyings, Vec2, Vec4, WithGradient};
 
 /// The base colour: a part of a [`Surface`](super::surface::Surface).
 pub trait BaseColor: Send + Sync + 'static {
@@ -68,18 +68,31 @@ pub enum Alpha {
     Kept,
 }
 
+impl Painted {
+    /// True if something beside the texture takes derivatives: those of the bump map, or the alpha
+    /// of a smooth edge.
+    #[inline(always)]
+    fn needs_quads(&self) -> bool {
+        self.bump.is_some() || matches!(self.alpha, Alpha::Covers(_))
+    }
+}
+
 impl BaseColor for Painted {
-    type Values<R: Real> = (Vec2<R>, Vec4<R>); // uv, color
+    type Values<R: Real> = (WithGradient<Vec2<R>>, Vec4<R>); // uv, color
 
     #[inline(always)]
     fn color<R: Real>(
         &self,
         input: &FragmentIn<'_, R>,
-        (uv, color): (Vec2<R>, Vec4<R>),
+        (uv, color): (WithGradient<Vec2<R>>, Vec4<R>),
     ) -> Vec4<R> {
         let mut base = color * Vec4::uniform(input.zero, self.factor);
         if let Some(texture) = &self.texture {
-            base *= texture.sample(uv);
+            // Where quads are needed all the same, they cost less than derivatives of their own.
+            base *= match self.needs_quads() {
+                true => texture.sample(uv.value),
+                false => texture.sample(uv),
+            };
         }
         if self.alpha == Alpha::Ignored {
             base.w = input.real(1.0);
@@ -88,8 +101,11 @@ impl BaseColor for Painted {
     }
 
     #[inline(always)]
-    fn bump<R: Real>(&self, (uv, _): (Vec2<R>, Vec4<R>)) -> Option<(&BumpMap, Vec2<R>)> {
-        self.bump.as_ref().map(|map| (map, uv))
+    fn bump<R: Real>(
+        &self,
+        (uv, _): (WithGradient<Vec2<R>>, Vec4<R>),
+    ) -> Option<(&BumpMap, Vec2<R>)> {
+        self.bump.as_ref().map(|map| (map, uv.value))
     }
 
     #[inline(always)]

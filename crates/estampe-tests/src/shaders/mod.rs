@@ -5,6 +5,7 @@ mod bound;
 mod colored;
 mod depths;
 mod distances;
+mod gradients;
 mod probe;
 mod samples;
 mod textured;
@@ -18,6 +19,7 @@ pub use bound::{BoundDepth, BoundTexture, StoresPlaces, value_at};
 pub use colored::{Colored, FlatColored, Halved, Sized, Uniform};
 pub use depths::{Cutout, CutoutDepth, DepthGiven, DepthOnly, GivenDepth};
 pub use distances::{Distant, ManyDistances};
+pub use gradients::{CentroidGradients, Gradients, Slope};
 pub use probe::{Probe, Scalar};
 pub use samples::{AtCentroid, AtSample, BySample, Masking, Shown};
 pub use textured::{TexelSource, Textured, TexturedShader};
@@ -84,6 +86,8 @@ test_shaders!(
     Uniform,
     Sized,
     Probe,
+    Gradients,
+    CentroidGradients,
     Cutout,
     DepthGiven,
     CutoutDepth,

@@ -11,6 +11,7 @@ mod depth_maps;
 mod depth_precision;
 mod fragment_ops;
 mod geometry_shader;
+mod gradients;
 mod indirect;
 mod inspection;
 mod layers;

@@ -2,7 +2,7 @@
 //! as packets.
 
 use estampe_simd::{LANES, Packet};
-use estampe_types::{Int, Real, Vec2, Vec3, Vec4};
+use estampe_types::{Int, Real, Vec2, Vec3, Vec4, WithGradient};
 
 /// A texture coordinate: as many components as the view's dimension has, and an array layer.
 #[derive(Debug, Clone, Copy)]
@@ -60,10 +60,40 @@ impl<R: Real> Coordinates<R> {
 }
 
 /// What a texture is sampled at: [`Coordinates`], (u, v) of a 2D view as a [`Vec2`], or a [`Vec3`]:
-/// (u, v, w) of a 3D view, a direction of a cube.
+/// (u, v, w) of a 3D view, a direction of a cube. Either may be a varying with its
+/// [gradient](WithGradient).
 pub trait TextureCoordinates<R: Real>: Copy {
     /// The coordinates, layer 0 if they have none.
     fn coordinates(self) -> Coordinates<R>;
+    /// Their derivatives along x and y, from which the level of detail comes. Without, it comes from
+    /// the differences within quads.
+    #[inline(always)]
+    fn gradient(self) -> Option<[Vec3<R>; 2]> {
+        None
+    }
+}
+
+impl<R: Real> TextureCoordinates<R> for WithGradient<Vec2<R>> {
+    #[inline(always)]
+    fn coordinates(self) -> Coordinates<R> {
+        Coordinates::d2(self.value)
+    }
+    #[inline(always)]
+    fn gradient(self) -> Option<[Vec3<R>; 2]> {
+        let three = |of: Vec2<R>| Vec3::new(of.x, of.y, of.x.splat(0.0));
+        Some([three(self.ddx), three(self.ddy)])
+    }
+}
+
+impl<R: Real> TextureCoordinates<R> for WithGradient<Vec3<R>> {
+    #[inline(always)]
+    fn coordinates(self) -> Coordinates<R> {
+        Coordinates::d3(self.value)
+    }
+    #[inline(always)]
+    fn gradient(self) -> Option<[Vec3<R>; 2]> {
+        Some([self.ddx, self.ddy])
+    }
 }
 
 impl<R: Real> TextureCoordinates<R> for Coordinates<R> {
@@ -119,7 +149,7 @@ pub(crate) fn packet<R: Real>(value: R, first: usize) -> Packet<f32> {
     let mut lanes = Packet::default();
     let count = if R::LANES < LANES { R::LANES } else { LANES };
     for (lane, to) in lanes.0.iter_mut().enumerate().take(count) {
-        *to = value.lane(first + lane);
+        *to = value.lane_to_store(first + lane);
     }
     lanes
 }
@@ -131,7 +161,7 @@ pub(crate) fn packet_of_ints<I: Int>(value: I, first: usize) -> Packet<i32> {
     let all = <I::Real as Real>::LANES;
     let count = if all < LANES { all } else { LANES };
     for (lane, to) in lanes.0.iter_mut().enumerate().take(count) {
-        *to = value.lane(first + lane);
+        *to = value.lane_to_store(first + lane);
     }
     lanes
 }

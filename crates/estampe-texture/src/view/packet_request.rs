@@ -8,7 +8,7 @@ use super::coordinates::{Answers as Colors, Coordinates, Lod, packet};
 use super::packet::MOST_TAPS;
 use crate::Rgba8Texture;
 use crate::compare::compare_packets;
-use crate::request::Request;
+use crate::request::{Request, RequestDetail};
 use estampe_simd::{LANES, Packet};
 use estampe_types::{Int, Real};
 
@@ -152,18 +152,22 @@ impl PacketRequest<'_> {
             .map(|other| std::array::from_fn(|k| self.at[k].0[first + other] - self.at[k].0[first]))
     }
 
-    /// The coordinates, and the level of detail if it is given: what the common kind of texture
+    /// The coordinates, and where the level of detail comes from: what the common kind of texture
     /// samples. `None` if sixteen lanes ask for anything else.
     fn common(&self) -> Option<Request<'_>> {
-        let lod = match self.lod {
-            PacketLod::Implicit => None,
-            PacketLod::Level => Some(self.value),
-            PacketLod::Bias | PacketLod::Gradients => return None,
+        let detail = match self.lod {
+            PacketLod::Implicit => RequestDetail::Quads,
+            PacketLod::Level => RequestDetail::Level(self.value),
+            PacketLod::Gradients => {
+                let [ux, vx, _, uy, vy, _] = self.gradients;
+                RequestDetail::Gradients([ux, vx, uy, vy])
+            }
+            PacketLod::Bias => return None,
         };
         let is_common = self.count == LANES && self.offset == [0; 3];
         is_common.then_some(Request {
             uv: [self.at[0], self.at[1]],
-            lod,
+            detail,
         })
     }
 }
@@ -175,7 +179,7 @@ fn packet_of_layers<I: Int>(layer: I, first: usize) -> Packet<u32> {
     let all = <I::Real as Real>::LANES;
     let count = if all < LANES { all } else { LANES };
     for (lane, to) in lanes.0.iter_mut().enumerate().take(count) {
-        *to = layer.lane(first + lane).cast_unsigned();
+        *to = layer.lane_to_store(first + lane).cast_unsigned();
     }
     lanes
 }

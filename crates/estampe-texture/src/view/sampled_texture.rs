@@ -1,8 +1,9 @@
 //! [`SampledTexture`]: a view with a sampler, as a shader holds it.
 
-use super::coordinates::{Answers, Lod, TextureCoordinates, by_sixteen};
+use super::coordinates::{Answers, Coordinates, Lod, TextureCoordinates, by_sixteen};
 use super::packet::{LevelTable, PacketFormat};
 use super::{PacketRequest, TexelView};
+use crate::request::Detail;
 use crate::rgba8_texture::is_rgba8;
 use crate::{Rgba8Texture, TextureError, sample_compare_level};
 use estampe_simd::Level;
@@ -146,15 +147,32 @@ impl SampledTexture {
         &self.sampler
     }
 
-    /// Samples with the level of detail of the quad (`textureSample`).
+    /// Samples with the level of detail of the quad (`textureSample`); at a varying with a
+    /// [gradient](estampe_types::WithGradient), with that of the fragment itself.
     #[inline(always)]
     pub fn sample<R: Real>(&self, at: impl TextureCoordinates<R>) -> Vec4<R> {
+        if let Some([dx, dy]) = at.gradient() {
+            return self.sample_at_gradient(at.coordinates(), dx, dy);
+        }
         at.coordinates().uvw.x.takes_derivatives();
         if let Some(common) = &self.common {
             let uvw = at.coordinates().uvw;
             return common.sample(Vec2::new(uvw.x, uvw.y));
         }
         self.sample_other(at)
+    }
+
+    /// Samples with the level of detail of a fragment's derivatives.
+    #[inline(always)]
+    fn sample_at_gradient<R: Real>(&self, at: Coordinates<R>, dx: Vec3<R>, dy: Vec3<R>) -> Vec4<R> {
+        if let Some(common) = &self.common {
+            let [at, dx, dy] = [at.uvw, dx, dy].map(|of| Vec2::new(of.x, of.y));
+            return common.sample_grad(at, dx, dy);
+        }
+        at.uvw.x.out_of_line(
+            #[inline(always)]
+            move || self.sample_with(at, Lod::Gradients(dx, dy), [0; 3]),
+        )
     }
 
     /// Samples a texture that is not [common](Self::common), outside the shader's code.
@@ -175,14 +193,24 @@ impl SampledTexture {
         textures: [&Self; N],
         at: impl TextureCoordinates<R>,
     ) -> [Vec4<R>; N] {
-        at.coordinates().uvw.x.takes_derivatives();
+        let gradient = at.gradient();
+        if gradient.is_none() {
+            at.coordinates().uvw.x.takes_derivatives();
+        }
         if let Some(common) = all_common(&textures) {
-            let uvw = at.coordinates().uvw;
-            return Rgba8Texture::sample_all(common, Vec2::new(uvw.x, uvw.y));
+            let two = |of: Vec3<R>| Vec2::new(of.x, of.y);
+            let detail = match gradient {
+                Some([dx, dy]) => Detail::Gradients([two(dx), two(dy)]),
+                None => Detail::Quads,
+            };
+            return Rgba8Texture::sample_all_with(common, two(at.coordinates().uvw), detail);
         }
         let mut colors = [Vec4::repeat(at.coordinates().uvw.x); N];
         for (color, texture) in colors.iter_mut().zip(textures) {
-            *color = texture.sample_other(at);
+            *color = match gradient {
+                Some([dx, dy]) => texture.sample_at_gradient(at.coordinates(), dx, dy),
+                None => texture.sample_other(at),
+            };
         }
         colors
     }

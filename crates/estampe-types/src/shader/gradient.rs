@@ -1,6 +1,6 @@
 //! Varyings with their derivatives in the window.
 
-use super::{Sampling, Sink, Source, Varyings};
+use super::{Attributes, Sampling, Sink, Source, Varyings};
 use crate::{Interpolation, Real};
 
 /// A varying with its derivatives in the window, which a fragment takes from its primitive.
@@ -37,6 +37,17 @@ impl<T: Copy> From<T> for WithGradient<T> {
             ddx: value,
             ddy: value,
         }
+    }
+}
+
+/// As attributes they have no derivatives.
+impl<R: Real, T: Attributes<R> + Copy> Attributes<R> for WithGradient<T> {
+    fn components(out: &mut Vec<usize>) {
+        T::components(out);
+    }
+    #[inline(always)]
+    fn load(from: &mut impl Source<R>) -> Self {
+        T::load(from).into()
     }
 }
 

@@ -106,12 +106,13 @@ use crate::{BindGroupLayout, Bindings, Real, Vec2, Vec4};
 /// The dry run also finds what saves time, and no constant promises it:
 ///
 /// * Fragments that take **no derivatives**, neither explicit nor those of textures, are shaded
-///   without their quads, so that those of several small triangles share a packet.
+///   without their quads, so that those of several triangles share a packet. Textures take none if
+///   they are sampled at a varying with its [gradient](WithGradient), or at a given level.
 /// * If the one colour of a fragment is the first four scalars of its varyings **as they are**, the
 ///   shader is not called at all.
 ///
-/// Both hold only of a body that branches on no mask, looks at no single lane, as sampling a
-/// texture does, and does not ask [`Bindings`] for a resource that may be missing.
+/// Both hold only of a body that branches on no mask, looks at no single lane, and does not ask
+/// [`Bindings`] for a resource that may be missing.
 pub trait Shader: Send + Sync + 'static {
     /// Attributes that a vertex reads, at location 0, 1, … in order: a number, a vector, a tuple of
     /// up to six of those, or a struct of [`attributes!`](crate::attributes).

@@ -3,7 +3,7 @@
 #![deny(warnings)]
 
 use crate::shader::{Sink, Source};
-use crate::{Attributes, Interpolation, Sampling, Varyings, Vec2, Vec3, Vec4};
+use crate::{Attributes, Interpolation, Sampling, Varyings, Vec2, Vec3, Vec4, WithGradient};
 
 crate::attributes! {
     /// A corner.
@@ -101,4 +101,49 @@ fn attributes_of_fields_choose_the_interpolation() {
     let mut none = Vec::new();
     Nothing::<f32>::modes(&mut none);
     assert!(none.is_empty());
+}
+
+crate::varyings! {
+    struct Textured<R> { before: R, #[no_perspective] uv: WithGradient<Vec2<R>>, after: R }
+}
+
+/// Scalars, and derivatives along x and y.
+struct Lists {
+    values: List,
+    derivatives: [List; 2],
+}
+
+impl Source<f32> for Lists {
+    fn take(&mut self) -> f32 {
+        self.values.take()
+    }
+
+    fn take_derivative(&mut self, axis: usize, _like: f32) -> f32 {
+        self.derivatives[axis].take()
+    }
+}
+
+#[test]
+fn derivatives_follow_their_scalars() {
+    let mut gradients = Vec::new();
+    Textured::<f32>::gradients(&mut gradients);
+    assert_eq!(gradients, [false, true, true, false]);
+    let mut lists = Lists {
+        values: List(vec![1.0, 2.0, 3.0, 4.0]),
+        derivatives: [List(vec![5.0, 6.0]), List(vec![7.0, 8.0])],
+    };
+    let all = Textured::load(&mut lists);
+    assert_eq!((all.before, all.after), (1.0, 4.0));
+    let uv = WithGradient {
+        value: Vec2::new(2.0, 3.0),
+        ddx: Vec2::new(5.0, 6.0),
+        ddy: Vec2::new(7.0, 8.0),
+    };
+    assert_eq!(all.uv, uv);
+    let mut stored = List(Vec::new());
+    all.store(&mut stored);
+    assert_eq!(stored.0, [1.0, 2.0, 3.0, 4.0]);
+    // A source without derivatives, as of vertices, gives zeros.
+    let all = Textured::load(&mut stored);
+    assert_eq!([all.uv.ddx, all.uv.ddy], [Vec2::new(0.0, 0.0); 2]);
 }

@@ -1,6 +1,7 @@
 //! Lines: values along the way from one end to the other.
 
 use super::Interpolant;
+use super::triangle::smooth_derivatives;
 use super::varyings::VaryingSource;
 use crate::bounds::primitives::LinePrimitive;
 use crate::geometry::line_style::{
@@ -155,6 +156,7 @@ impl<'a> LineInterpolant<'a> {
         let perspective = a.iw.to_bits() != b.iw.to_bits();
         let one = <f32x16<S> as SimdBase<S>>::splat(s, 1.0);
         let w = one / mix(s, a.iw, b.iw, t);
+        let (out, derivatives) = out.split_at_mut(self.source.modes.len());
         for (k, packet) in out.iter_mut().enumerate() {
             let value = match self.source.modes[k] {
                 Interpolation::Flat => SimdBase::splat(s, provoking[k]),
@@ -163,6 +165,46 @@ impl<'a> LineInterpolant<'a> {
             };
             value.store_array(&mut packet.0);
         }
+        let splat = |value| <f32x16<S> as SimdBase<S>>::splat(s, value);
+        let [slope_x, slope_y] = self.slopes();
+        let (along_x, along_y) = derivatives.split_at_mut(self.source.gradients.len());
+        let along = along_x.iter_mut().zip(along_y);
+        for ((along_x, along_y), &k) in along.zip(self.source.gradients) {
+            let [x, y] = match self.source.modes[k] {
+                Interpolation::Flat => [splat(0.0); 2],
+                Interpolation::Smooth if perspective => {
+                    let value = f32x16::load_array_ref(s, &out[k].0);
+                    let (change, of_iw) = (to[k] * b.iw - from[k] * a.iw, b.iw - a.iw);
+                    smooth_derivatives(
+                        [splat(change * slope_x), splat(change * slope_y)],
+                        value,
+                        [splat(of_iw * slope_x), splat(of_iw * slope_y)],
+                        w,
+                    )
+                }
+                _ => {
+                    let change = to[k] - from[k];
+                    [splat(change * slope_x), splat(change * slope_y)]
+                }
+            };
+            x.store_array(&mut along_x.0);
+            y.store_array(&mut along_y.0);
+        }
+    }
+
+    /// How the fraction of the way changes from a pixel to the next one on the right, and to the
+    /// next one below.
+    fn slopes(&self) -> [f32; 2] {
+        if self.rectangle.is_none() {
+            let slope = 256.0 / self.axis.delta[0] as f32;
+            return if self.axis.x_major {
+                [slope, 0.0]
+            } else {
+                [0.0, slope]
+            };
+        }
+        let squared = length_squared(self.line) as f32;
+        self.way.map(|way| 256.0 * way as f32 / squared)
     }
 }
 

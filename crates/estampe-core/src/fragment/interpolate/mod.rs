@@ -13,7 +13,7 @@ mod varyings;
 pub(crate) use line::LineInterpolant;
 pub(crate) use planes::{DepthPlane, PlaneBlock, PlaneOrigin, evaluate};
 pub(crate) use point::PointInterpolant;
-pub(crate) use triangle::TriangleInterpolant;
+pub(crate) use triangle::{TriangleInterpolant, smooth_derivatives};
 pub(crate) use varyings::{VaryingPlanes, VaryingSource, set_planes};
 
 use estampe_simd::{LANES, Lanes, Packet, f32x16};

@@ -28,6 +28,8 @@ impl<S: Lanes> Interpolant<S> for PointInterpolant<'_> {
     fn varyings(&self, s: S, _pixel: [i32; 2], out: &mut [Packet<f32>]) {
         let own = self.source.of(self.point.center.vertex);
         let provoking = self.source.of(self.point.provoking);
+        let (out, derivatives) = out.split_at_mut(self.source.modes.len());
+        derivatives.fill(Packet::default());
         for (k, packet) in out.iter_mut().enumerate() {
             let value = match self.source.modes[k] {
                 Interpolation::Flat => provoking[k],

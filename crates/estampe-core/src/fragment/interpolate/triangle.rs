@@ -19,6 +19,8 @@ pub(crate) struct TriangleInterpolant<'a> {
     pub(crate) modes: &'a [Interpolation],
     /// True if every varying is smooth; `modes` is then not read.
     pub(crate) all_smooth: bool,
+    /// The scalars whose derivatives are wanted.
+    pub(crate) gradients: &'a [usize],
 }
 
 impl<S: Lanes> Interpolant<S> for TriangleInterpolant<'_> {
@@ -86,8 +88,9 @@ impl TriangleInterpolant<'_> {
     fn varyings_at<S: Lanes>(&self, s: S, distances: [f32x16<S>; 2], out: &mut [Packet<f32>]) {
         outline!(s, {
             let one = <f32x16<S> as SimdBase<S>>::splat(s, 1.0);
-            let n = out.len().min(self.planes.len());
             let planes = self.planes;
+            let n = out.len().min(planes.len());
+            let (out, derivatives) = out.split_at_mut(n);
             // Not from the plane, whose sum would turn −0 into 0.
             let is_flat = |k: usize| !self.all_smooth && self.modes[k] == Interpolation::Flat;
             if self.equal_w {
@@ -97,6 +100,13 @@ impl TriangleInterpolant<'_> {
                         continue;
                     }
                     evaluate(s, &planes.of(k), distances).store_array(&mut packet.0);
+                }
+                let (along_x, along_y) = derivatives.split_at_mut(self.gradients.len());
+                let along = along_x.iter_mut().zip(along_y);
+                for ((along_x, along_y), &k) in along.zip(self.gradients) {
+                    let Plane { dx, dy, .. } = planes.of(k);
+                    // The sum turns −0 into 0, so that all that does not vary is alike.
+                    (along_x.0, along_y.0) = ([dx + 0.0; LANES], [dy + 0.0; LANES]);
                 }
                 return;
             }
@@ -111,6 +121,23 @@ impl TriangleInterpolant<'_> {
                     value *= w;
                 }
                 value.store_array(&mut packet.0);
+            }
+            let (along_x, along_y) = derivatives.split_at_mut(self.gradients.len());
+            let along = along_x.iter_mut().zip(along_y);
+            let splat = |value| <f32x16<S> as SimdBase<S>>::splat(s, value);
+            let slopes_of_iw = [splat(self.iw.dx), splat(self.iw.dy)];
+            for ((along_x, along_y), &k) in along.zip(self.gradients) {
+                let Plane { dx, dy, .. } = planes.of(k);
+                if self.all_smooth || self.modes[k] == Interpolation::Smooth {
+                    let value = f32x16::load_array_ref(s, &out[k].0);
+                    let slopes = [splat(dx), splat(dy)];
+                    let [x, y] = smooth_derivatives(slopes, value, slopes_of_iw, w);
+                    x.store_array(&mut along_x.0);
+                    y.store_array(&mut along_y.0);
+                } else {
+                    // Those of a flat one are 0.
+                    (along_x.0, along_y.0) = ([dx + 0.0; LANES], [dy + 0.0; LANES]);
+                }
             }
         })
     }
@@ -150,4 +177,16 @@ impl TriangleInterpolant<'_> {
             rows + splat(y as f32 + sy - self.origin.y),
         ]
     }
+}
+
+/// The derivatives along x and y of a perspective-correct varying u = P·w, where P and 1/w are
+/// planes: (∂P − u·∂(1/w))·w.
+#[inline(always)]
+pub(crate) fn smooth_derivatives<S: Lanes>(
+    [x, y]: [f32x16<S>; 2],
+    value: f32x16<S>,
+    [iw_x, iw_y]: [f32x16<S>; 2],
+    w: f32x16<S>,
+) -> [f32x16<S>; 2] {
+    [(x - value * iw_x) * w, (y - value * iw_y) * w]
 }

@@ -16,6 +16,8 @@ pub(crate) struct VaryingSource<'a> {
     pub(crate) clipped: &'a [f32],
     /// The interpolation of each scalar.
     pub(crate) modes: &'a [Interpolation],
+    /// The scalars whose derivatives fragments read.
+    pub(crate) gradients: &'a [usize],
 }
 
 impl<'a> VaryingSource<'a> {

@@ -146,7 +146,7 @@ impl<const N: usize> FragmentQueue<N> {
         debug_assert_eq!(self.len, 0, "packets of another pipeline are still queued");
         self.samples = samples;
         self.open = None;
-        self.scalars = interface.varyings.len();
+        self.scalars = interface.fragment_scalars();
         self.targets = interface.color_targets;
         self.colors_each = interface.colors();
         self.color_passthrough = pipeline.key().color_passthrough;
@@ -155,7 +155,17 @@ impl<const N: usize> FragmentQueue<N> {
         if samples.count() > 1 && interface.sampling.contains(&Sampling::Centroid) {
             self.sampling.extend(&interface.sampling);
             // A program of a caller's own may list fewer or more than it has.
-            self.sampling.resize(self.scalars, Sampling::Center);
+            self.sampling
+                .resize(interface.varyings.len(), Sampling::Center);
+            // Derivatives are those at the place of the varying.
+            for _axis in 0..2 {
+                let of_gradients = interface
+                    .gradients
+                    .iter()
+                    .map(|&scalar| self.sampling[scalar]);
+                let of_gradients: Vec<_> = of_gradients.collect();
+                self.sampling.extend(of_gradients);
+            }
         }
         self.needs = Needs {
             position: interface.reads_position,

@@ -204,6 +204,7 @@ impl<'a, const N: usize> InOrder<'a, '_, '_, N> {
             equal_w: triangle.equal_w,
             planes: VaryingPlanes::default(),
             modes: self.source.modes,
+            gradients: self.source.gradients,
             all_smooth: plan.all_smooth,
         };
         let is_visible = self.test_early(s, &interpolant, front);

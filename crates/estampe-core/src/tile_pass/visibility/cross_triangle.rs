@@ -132,7 +132,7 @@ impl<const N: usize> Rasterizer<'_, '_, '_, N> {
             };
             // Exact, as in the coverage.
             let distances = small.distances(s, row.pixels);
-            cross.planes.varyings(s, row, source.modes, distances, out);
+            cross.planes.varyings(s, row, &source, distances, out);
         }
         let cross = &mut self.scratch.visibility.cross;
         cross.open = cross.fragments.open();

@@ -16,6 +16,7 @@ use crate::shading::surface::Written;
 use crate::shading::{VertexTransforms, shading_normal};
 use estampe::{
     FragmentIn, FragmentOut, Real, TextureBindings, Vec2, Vec3, Vec4, VertexIn, VertexOut,
+    WithGradient,
 };
 use std::sync::Arc;
 
@@ -46,7 +47,13 @@ pub struct PbrSurface {
 
 /// What is interpolated: view position, normal, tangent with the bitangent's sign, both texture
 /// coordinates, colour.
-type Interpolated<R> = (Vec3<R>, Vec3<R>, Vec4<R>, (Vec2<R>, Vec2<R>), Vec4<R>);
+type Interpolated<R> = (
+    Vec3<R>,
+    Vec3<R>,
+    Vec4<R>,
+    (WithGradient<Vec2<R>>, WithGradient<Vec2<R>>),
+    Vec4<R>,
+);
 
 /// The frame of normal maps at a fragment, as MikkTSpace wants it: as interpolated.
 #[derive(Debug, Clone, Copy)]
@@ -86,6 +93,7 @@ impl PbrSurface {
         to_eye: Vec3<R>,
     ) -> TangentFrame<R> {
         let (view, normal, tangent, uvs, _) = *v;
+        let uvs = (uvs.0.value, uvs.1.value);
         let one = input.real(1.0);
         let unit = shading_normal(normal, to_eye, input.front_facing);
         let sign = R::select(input.front_facing, one, -one);
@@ -122,6 +130,7 @@ impl PbrSurface {
     ) -> (PbrPoint<R>, Option<Behind<R>>) {
         let parameters = &*self.parameters;
         let (view, _, _, uvs, _) = *v;
+        let uvs = (uvs.0.value, uvs.1.value);
         let one = input.real(1.0);
         let to_eye = self.transforms.eye_direction(view);
         let frame = self.frame(input, v, to_eye);
@@ -242,7 +251,7 @@ impl PbrSurface {
         let leaving = point.leaving(environment, lights);
         let mut emitted = Vec3::uniform(input.zero, parameters.emissive);
         if let Some(texture) = &parameters.emissive_texture {
-            emitted *= texture.sample(v.3).xyz();
+            emitted *= texture.sample((v.3.0.value, v.3.1.value)).xyz();
         }
         let sum = (leaving.reflected + emitted) * *exposure;
         if self.written == Written::Light {
@@ -327,7 +336,14 @@ estampe::shader! {
         fn fragment<R: Real>(&self, input: FragmentIn<'_, R>, v: Interpolated<R>) -> FragmentOut<R> {
             let mut base = v.4 * Vec4::uniform(input.zero, self.parameters.base);
             if let Some(texture) = &self.parameters.base_texture {
-                base *= texture.sample(v.3);
+                // Light takes derivatives, and so does the alpha of a smooth edge: then quads are
+                // needed all the same, and cost less than derivatives of their own.
+                let needs_quads =
+                    !self.parameters.is_unlit || matches!(self.alpha, Alpha::Covers(_));
+                base *= match needs_quads {
+                    true => texture.sample((v.3.0.value, v.3.1.value)),
+                    false => texture.sample_at_varyings(v.3),
+                };
             }
             let seen = self.seen(&input, &v, base.xyz());
             let mut color = self.output.color(&input, seen.color);

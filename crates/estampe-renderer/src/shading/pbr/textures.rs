@@ -1,6 +1,6 @@
 //! The textures of a physically based material, with their texture coordinates.
 
-use estampe::{Real, SampledTexture, Vec2, Vec4};
+use estampe::{Real, SampledTexture, Vec2, Vec4, WithGradient};
 use estampe_scene::UvTransform;
 
 /// A texture of a material.
@@ -59,5 +59,23 @@ impl MaterialTexture {
     #[inline(always)]
     pub fn sample<R: Real>(&self, uvs: (Vec2<R>, Vec2<R>)) -> Vec4<R> {
         self.texture.sample(self.coordinates.of(uvs))
+    }
+
+    /// [`MaterialTexture::sample`] with the level of detail of the fragment itself, if the texture
+    /// coordinates are those of the vertices.
+    #[inline(always)]
+    pub fn sample_at_varyings<R: Real>(
+        &self,
+        uvs: (WithGradient<Vec2<R>>, WithGradient<Vec2<R>>),
+    ) -> Vec4<R> {
+        let uv = if self.coordinates.is_second {
+            uvs.1
+        } else {
+            uvs.0
+        };
+        match self.coordinates.transform {
+            Some(_) => self.sample((uvs.0.value, uvs.1.value)),
+            None => self.texture.sample(uv),
+        }
     }
 }

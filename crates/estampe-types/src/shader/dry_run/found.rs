@@ -43,7 +43,10 @@ impl Found {
             for &answers in ways {
                 let vertex = runs::vertex(shader, answers, word);
                 let fragment = runs::fragment(shader, answers, word, &varyings);
-                for (run, lost) in [(vertex, Facts::NONE), (fragment, Facts::UNKNOWN)] {
+                for (run, lost) in [
+                    (vertex, Facts::NONE),
+                    (fragment, Facts::UNKNOWN.and(Facts::UNTRIED)),
+                ] {
                     match run {
                         Ok(found) => all = all.and(found),
                         // A body may rely on what holds, and on what is bound. What it would have
@@ -62,7 +65,7 @@ impl Found {
             }
             if ways.len() == 1 {
                 // The other words cannot be tried.
-                all.facts = all.facts.and(Facts::UNKNOWN);
+                all.facts = all.facts.and(Facts::UNKNOWN).and(Facts::UNTRIED);
                 break;
             }
         }
@@ -106,6 +109,10 @@ impl Found {
         Interface {
             color_passthrough: no_derivatives && is_color_alone && !self.changes_color,
             no_derivatives,
+            gradients: match reads(Facts::GRADIENT.and(Facts::UNTRIED)) {
+                true => declared.gradients,
+                false => Vec::new(),
+            },
             color_targets: declared.color_targets.max(self.color_targets),
             discards: declared.discards | self.discards,
             depth_output,

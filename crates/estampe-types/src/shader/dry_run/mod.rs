@@ -15,6 +15,8 @@
 //!   fragment that takes none can be shaded beside fragments of other triangles. That holds only of
 //!   a body that asks no question, looks at no single lane and misses no resource, as any of these
 //!   may lead elsewhere in a draw.
+//! * **Derivatives of varyings** that primitives give are inputs, too: where none is used, none is
+//!   computed.
 //! * **A colour that is passed through** consists of the first four scalars of the varyings, which
 //!   still have their marks when they are returned.
 //! * **Stores** are found if the stored lanes exclude helper invocations, as they must.
@@ -86,5 +88,7 @@ pub(super) fn declared<T: Shader>() -> Result<Interface, ShaderError> {
     Ok(interface)
 }
 
+#[cfg(test)]
+mod gradient_tests;
 #[cfg(test)]
 mod tests;

@@ -282,7 +282,13 @@ impl<'a> Real for Recorded<'a> {
     }
     #[inline(never)]
     fn lane(self, index: usize) -> f32 {
-        self.noted(Facts::UNKNOWN).used().lane(index)
+        self.noted(Facts::UNKNOWN.and(Facts::UNTRIED))
+            .used()
+            .lane(index)
+    }
+    #[inline(never)]
+    fn lane_to_store(self, index: usize) -> f32 {
+        self.used().lane(index)
     }
     fn with_lanes(self, value: impl FnMut(usize) -> f32) -> Self {
         self.made(self.quad().with_lanes(value))
@@ -325,6 +331,12 @@ impl<'a> Int for Recorded<'a, i32> {
     }
     #[inline(never)]
     fn lane(self, index: usize) -> i32 {
-        self.noted(Facts::UNKNOWN).used().lane(index)
+        self.noted(Facts::UNKNOWN.and(Facts::UNTRIED))
+            .used()
+            .lane(index)
+    }
+    #[inline(never)]
+    fn lane_to_store(self, index: usize) -> i32 {
+        self.used().lane(index)
     }
 }

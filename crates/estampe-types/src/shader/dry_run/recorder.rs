@@ -25,6 +25,10 @@ impl Facts {
     /// What the shader does depends on something that a dry run does not know: the number of a
     /// lane, whether a condition holds, or a resource that is not bound.
     pub(super) const UNKNOWN: Self = Self(64);
+    /// Dry runs do not try what it depends on either, as they do with questions about masks.
+    pub(super) const UNTRIED: Self = Self(4096);
+    /// A derivative of a varying is used that the primitive gives.
+    pub(super) const GRADIENT: Self = Self(2048);
 
     /// The scalar `number` of the varyings is used, of the first four.
     pub(super) const fn varying(number: usize) -> Self {
@@ -38,7 +42,7 @@ impl Facts {
         self.0 & fact.0 != 0
     }
 
-    pub(super) fn and(self, others: Self) -> Self {
+    pub(super) const fn and(self, others: Self) -> Self {
         Self(self.0 | others.0)
     }
 }

@@ -45,6 +45,11 @@ impl<'r> Source<Recorded<'r>> for Scripted<'_, 'r> {
         self.number = self.number.map(|number| number + 1);
         Recorded::new(Quad(lanes), input, self.recorder)
     }
+
+    fn take_derivative(&mut self, axis: usize, _like: Recorded<'r>) -> Recorded<'r> {
+        let lanes = [0, 1, 2, 3].map(|lane| fraction(lane + 4 * axis));
+        Recorded::new(Quad(lanes), Facts::GRADIENT, self.recorder)
+    }
 }
 
 /// Bindings of a run in which nothing is bound.
@@ -133,7 +138,7 @@ pub(super) fn fragment<T: Shader>(
         let out = shader.fragment(input, T::Varyings::load(&mut source));
         use_all(&out);
         if unbound.is_missed() {
-            recorder.note(Facts::UNKNOWN);
+            recorder.note(Facts::UNKNOWN.and(Facts::UNTRIED));
         }
         Found {
             color_targets: set(&out.colors),

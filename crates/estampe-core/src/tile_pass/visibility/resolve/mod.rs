@@ -1,12 +1,14 @@
 //! The end of a run: every visible sample is shaded once, by the triangle that it shows.
 //!
-//! A packet that shows one triangle is shaded whole; of others each triangle's quads are shaded in
-//! packets that they share with those of other triangles and places. Draws that share a pipeline
-//! and bindings are shaded together, and those of one colour come first.
+//! A packet that shows one triangle is shaded whole. Of others each triangle's quads are shaded in
+//! packets that they share with those of other triangles and places; if fragments need no quads,
+//! each lane is shaded for the triangle that it shows (`joined.rs`). Draws that share a pipeline and
+//! bindings are shaded together, and those of one colour come first.
 
 mod early;
 mod groups;
 mod ids;
+mod joined;
 mod per_draw;
 mod per_primitive;
 mod visible;
@@ -25,6 +27,7 @@ use crate::tile_pass::{TileJob, TilePass, TileScratch, write_colors};
 use early::write_cross_triangle;
 use estampe_simd::{LANES, Lanes, dispatch};
 use estampe_types::Interpolation;
+use joined::Slots;
 use per_draw::DrawTexels;
 use visible::VisibleTriangle;
 
@@ -192,7 +195,8 @@ impl<'a, 'j, 't, const N: usize> Resolver<'a, 'j, 't, N> {
     /// Queues the visible samples of a group, packet by packet.
     #[inline(always)]
     fn packets<S: Lanes>(&mut self, s: S, group: &ShadingGroup, packets: PacketSet) {
-        let per_primitive = self.plan.pipeline.key().uniform_over_primitive;
+        let key = self.plan.pipeline.key();
+        let (per_primitive, joins) = (key.uniform_over_primitive, key.needs_no_quads && N == 1);
         for (from, mut packets) in (0..).step_by(64).zip(packets) {
             while packets != 0 {
                 let number = from + packets.trailing_zeros() as usize;
@@ -210,6 +214,7 @@ impl<'a, 'j, 't, const N: usize> Resolver<'a, 'j, 't, N> {
                     Some(_) => continue,
                     None => self.take_unresolved(s, number, group),
                 };
+                let mut slots = Slots::default();
                 while left != [0; N] {
                     let (id, covered) = match single {
                         Some(id) => (id, std::mem::replace(&mut left, [0; N])),
@@ -223,6 +228,8 @@ impl<'a, 'j, 't, const N: usize> Resolver<'a, 'j, 't, N> {
                     };
                     if per_primitive {
                         self.fill(s, id, &covered);
+                    } else if joins {
+                        self.join(s, id, &covered, &mut slots);
                     } else {
                         self.queue(s, id, &covered);
                     }
@@ -245,20 +252,19 @@ impl<'a, 'j, 't, const N: usize> Resolver<'a, 'j, 't, N> {
         if self.scratch.queue.is_full() {
             self.flush();
         }
-        self.push(s, visible, covered);
+        self.push(s, visible, covered, None);
     }
 
-    /// Queues a packet of a visible triangle.
+    /// Queues a packet of a visible triangle; in the slot of another packet of the same place, if
+    /// one is given.
     #[inline(always)]
-    fn push<S: Lanes>(&mut self, s: S, visible: usize, covered: &Covered<N>) {
+    fn push<S: Lanes>(&mut self, s: S, visible: usize, covered: &Covered<N>, slot: Option<usize>) {
         let (x, y) = packet_origin(u32::from(covered.packet));
         let pixel = [self.origin[0] + x, self.origin[1] + y];
         let TileScratch {
             queue, visibility, ..
         } = &mut *self.scratch;
-        let (triangle, front) = visibility
-            .resolve
-            .interpolant(visible, self.modes, self.plan);
+        let (triangle, front) = visibility.resolve.interpolant(visible, self.plan);
         let packet = PrimitivePacket {
             alive: *covered,
             covered: covered.masks,
@@ -266,7 +272,10 @@ impl<'a, 'j, 't, const N: usize> Resolver<'a, 'j, 't, N> {
             front,
             sample: None,
         };
-        queue.push(s, &triangle, &packet);
+        match slot {
+            Some(slot) => queue.join(s, &triangle, &packet, slot),
+            None => queue.push(s, &triangle, &packet),
+        }
     }
 
     /// Queues the quads that were noted, triangle by triangle.
@@ -288,7 +297,7 @@ impl<'a, 'j, 't, const N: usize> Resolver<'a, 'j, 't, N> {
                     queue, visibility, ..
                 } = &mut *self.scratch;
                 let resolve = &visibility.resolve;
-                let (triangle, front) = resolve.interpolant(visible, self.modes, self.plan);
+                let (triangle, front) = resolve.interpolant(visible, self.plan);
                 if count == quads.len() {
                     queue.push_four_quads(s, &triangle, &quads, front);
                     continue;

@@ -8,7 +8,7 @@ use crate::fragment::interpolate::{
 use crate::plan::tile_plan::TilePlan;
 use crate::tile_pass::visibility::VisibilityScratch;
 use estampe_simd::Lanes;
-use estampe_types::Interpolation;
+use estampe_types::Interface;
 
 /// A visible triangle: the values that its fragments are interpolated from.
 #[derive(Debug, Clone, Copy)]
@@ -56,6 +56,7 @@ impl<const N: usize> Resolver<'_, '_, '_, N> {
             shaded: plan.varyings,
             clipped: &chunk.clipped_varyings,
             modes: self.modes,
+            gradients: &[],
         };
         let planes = &mut resolve.planes[from..];
         set_planes(s, planes, &triangle, &source, plan.all_smooth);
@@ -69,10 +70,14 @@ impl<const N: usize> ResolveScratch<N> {
     pub(super) fn interpolant<'a>(
         &'a self,
         place: usize,
-        modes: &'a [Interpolation],
-        plan: &TilePlan<'_>,
+        plan: &TilePlan<'a>,
     ) -> (TriangleInterpolant<'a>, bool) {
         let visible = &self.visible[place];
+        let Interface {
+            varyings: modes,
+            gradients,
+            ..
+        } = plan.pipeline.interface();
         let size = VaryingPlanes::size(modes.len());
         let interpolant = TriangleInterpolant {
             origin: visible.origin,
@@ -82,6 +87,7 @@ impl<const N: usize> ResolveScratch<N> {
             planes: VaryingPlanes::new(&self.planes[visible.planes as usize..][..size]),
             modes,
             all_smooth: plan.all_smooth,
+            gradients,
         };
         (interpolant, visible.front)
     }
