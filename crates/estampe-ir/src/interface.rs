@@ -1,6 +1,7 @@
 //! What a kernel exchanges with the outside: inputs, outputs, and the memory that it names.
 
 use crate::Type;
+use crate::op::Axis;
 
 /// The stage of a kernel.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -26,6 +27,15 @@ pub enum Input {
     },
     /// A scalar of the varyings, by its position among all of the stage's scalars.
     Varying(u32),
+    /// The derivative of a scalar of the varyings at the fragment itself: its change from a pixel
+    /// to the next, were its rate that of this fragment. Unlike [`Op::Derivative`](crate::Op), it
+    /// needs no other lane of the quad.
+    Derivative {
+        /// The scalar, by its position among all of the stage's scalars.
+        scalar: u32,
+        /// The direction in the window.
+        axis: Axis,
+    },
     /// The index of the vertex.
     VertexIndex,
     /// The index of the instance.

@@ -150,6 +150,14 @@ impl<'a> TextureAccess<'a> {
             .unwrap_or_default()
     }
 
+    /// All operands of a single packet that are words: the coordinates, the layer, what gives the
+    /// level of detail, the reference, the sample, what is stored.
+    #[inline]
+    #[must_use]
+    pub fn operands(&self) -> &'a [Packet<u32>] {
+        self.operands
+    }
+
     /// All results of a single packet.
     #[inline]
     pub fn results_mut(&mut self) -> &mut [Packet<u32>] {
@@ -185,7 +193,8 @@ impl<'a> TextureAccess<'a> {
 pub enum Common {
     /// Nothing that is known.
     Nothing,
-    /// All sample two coordinates, the same ones, with the level of detail of the quad.
+    /// All sample two coordinates, the same ones, with the level of detail of the quad or all with
+    /// the same gradients: they have the same operands, which are there once.
     Coordinates,
     /// All compare texels of one texture with the same depth, at two coordinates each.
     Reference,
@@ -204,12 +213,17 @@ impl Common {
         let is_flat =
             |op: &TextureOp| op.coordinates.len() == 2 && op.layer.is_none() && op.offset == [0; 3];
         let is_plain = |op: &TextureOp| {
-            op.query == TextureQuery::Sample && op.level == LevelOfDetail::Implicit && is_flat(op)
+            let (implicit, gradient) = (LevelOfDetail::Implicit, is_gradient(&op.level));
+            op.query == TextureQuery::Sample && (op.level == implicit || gradient) && is_flat(op)
         };
+        let is_same =
+            |op: &TextureOp| op.coordinates == first.coordinates && op.level == first.level;
         let compares = |op: &TextureOp| {
-            op.query == TextureQuery::SampleCompare
-                && matches!(op.level, LevelOfDetail::Zero | LevelOfDetail::Implicit)
-                && is_flat(op)
+            let is_given = matches!(
+                op.level,
+                LevelOfDetail::Bias(_) | LevelOfDetail::Explicit(_)
+            );
+            op.query == TextureQuery::SampleCompare && !is_given && is_flat(op)
         };
         let samples = |op: &TextureOp| {
             op.query == TextureQuery::Sample
@@ -219,19 +233,26 @@ impl Common {
         let is_like = |op: &TextureOp| {
             [op.texture, op.sampler.unwrap_or(u32::MAX)]
                 == [first.texture, first.sampler.unwrap_or(u32::MAX)]
-                && op.level == first.level
                 && op.reference == first.reference
         };
-        if ops.iter().all(is_plain) && others.iter().all(|op| op.coordinates == first.coordinates) {
+        if ops.iter().all(is_plain) && others.iter().all(is_same) {
             Self::Coordinates
         } else if ops.iter().all(compares) && others.iter().all(is_like) {
             Self::Reference
-        } else if ops.iter().all(samples) && others.iter().all(is_like) {
+        } else if ops.iter().all(samples)
+            && others
+                .iter()
+                .all(|op| is_like(op) && op.level == first.level)
+        {
             Self::Texture
         } else {
             Self::Nothing
         }
     }
+}
+
+fn is_gradient(level: &LevelOfDetail) -> bool {
+    matches!(level, LevelOfDetail::Gradient { .. })
 }
 
 /// Several accesses to textures in the same lanes of one packet.
@@ -243,14 +264,16 @@ pub struct TextureAccesses<'a> {
     pub common: Common,
     level: Level,
     mask: &'a [u16; 1],
-    /// The operands of each, as a [`TextureAccess`] has them, one after the other.
+    /// The operands of each, as a [`TextureAccess`] has them, one after the other; those of the
+    /// first alone if they are the same ones.
     operands: &'a [Packet<u32>],
     results: &'a mut [Packet<u32>],
 }
 
 impl<'a> TextureAccesses<'a> {
     /// Accesses in the lanes of a mask; operands and results are those of each
-    /// [`TextureAccess`], one after the other.
+    /// [`TextureAccess`], one after the other. Of [`Common::Coordinates`], the operands are those
+    /// of the first.
     #[must_use]
     pub fn new(
         (ops, common): (&'a [TextureOp], Common),
@@ -277,7 +300,9 @@ impl<'a> TextureAccesses<'a> {
         let (op, ops) = self.ops.split_first()?;
         self.ops = ops;
         let (operands, others) = self.operands.split_at_checked(op.words())?;
-        self.operands = others;
+        if self.common != Common::Coordinates {
+            self.operands = others;
+        }
         let results = std::mem::take(&mut self.results);
         let (results, others) = results.split_at_mut_checked(op.query.results() as usize)?;
         self.results = others;
@@ -301,9 +326,10 @@ impl<'a> TextureAccesses<'a> {
 
 #[cfg(test)]
 mod tests {
-    use super::Common;
+    use super::{Common, TextureAccesses};
     use crate::Value;
     use crate::op::{LevelOfDetail, TextureOp, TextureQuery};
+    use estampe_simd::{LANES, Level, Packet};
 
     fn sample(texture: u32, at: [u32; 2], level: LevelOfDetail) -> TextureOp {
         TextureOp {
@@ -338,11 +364,64 @@ mod tests {
         assert_eq!(of(&computed), Common::Nothing);
         let others = [sample(0, here, Zero), sample(1, there, Zero)];
         assert_eq!(of(&others), Common::Nothing);
-        let mut compared = taps.clone();
+        let mut compared = [taps.to_vec(), levels.to_vec()].concat();
+        compared[3].level = gradient(7);
         for op in &mut compared {
             op.query = TextureQuery::SampleCompare;
             op.reference = Some(Value(6));
         }
         assert_eq!(of(&compared), Common::Reference);
+    }
+
+    fn gradient(x: u32) -> LevelOfDetail {
+        LevelOfDetail::Gradient {
+            x: [x, 8].map(Value).to_vec(),
+            y: [9, 10].map(Value).to_vec(),
+        }
+    }
+
+    #[test]
+    fn accesses_share_coordinates_with_their_gradients() {
+        let at = |texture: u32, at: [u32; 2], x: u32| sample(texture, at, gradient(x));
+        let maps = [at(0, [1, 2], 7), at(1, [1, 2], 7), at(0, [1, 2], 7)];
+        assert_eq!(Common::of(&maps), Common::Coordinates);
+        let by_quads = sample(1, [1, 2], LevelOfDetail::Implicit);
+        for other in [
+            at(1, [1, 2], 6),
+            at(1, [1, 3], 7),
+            at(0, [1, 3], 7),
+            by_quads,
+        ] {
+            let ops = [maps[0].clone(), other];
+            assert_eq!(Common::of(&ops), Common::Nothing, "{ops:?}");
+        }
+    }
+
+    /// Operands that are the same ones are there once, and each access has them.
+    #[test]
+    fn accesses_are_taken_one_after_the_other() {
+        let words = |from: u32, count: usize| -> Vec<Packet<u32>> {
+            (from..)
+                .take(count)
+                .map(|word| Packet([word; LANES]))
+                .collect()
+        };
+        let same = [0, 1].map(|texture| sample(texture, [1, 2], gradient(7)));
+        let taps = [3, 5].map(|v| sample(0, [1, v], LevelOfDetail::Zero));
+        for (ops, operands) in [(same, [1..7, 1..7]), (taps, [1..3, 3..5])] {
+            let common = Common::of(&ops);
+            let given = words(1, 6);
+            let mut results = words(0, 8);
+            let context = (Level::best(), &[0xFFFF]);
+            let mut all = TextureAccesses::new((&ops, common), context, &given, &mut results);
+            for (number, expected) in (0_u32..).zip(operands) {
+                let mut access = all.next().expect("there are two");
+                let found = access.operands().iter().map(|packet| packet.0[0]);
+                assert_eq!(found.collect::<Vec<_>>(), expected.collect::<Vec<_>>());
+                access.result_mut(3)[0] = Packet([100 + number; LANES]);
+            }
+            assert!(all.next().is_none());
+            assert_eq!([3, 7].map(|at: usize| results[at].0[0]), [100, 101]);
+        }
     }
 }

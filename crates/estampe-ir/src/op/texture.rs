@@ -89,7 +89,7 @@ pub enum LevelOfDetail {
     Bias(Value),
     /// A float of sampled textures, an integer of loads and queries.
     Explicit(Value),
-    /// From these derivatives of the coordinates.
+    /// From these derivatives of the coordinates, which the lane has of itself: no quad counts.
     Gradient {
         /// Along a row.
         x: Vec<Value>,

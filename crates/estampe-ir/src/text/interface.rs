@@ -1,6 +1,7 @@
 //! The names of stages, inputs and outputs.
 
 use crate::interface::{Input, Output, Stage};
+use crate::op::Axis;
 
 pub(super) const STAGES: [(&str, Stage); 3] = [
     ("vertex", Stage::Vertex),
@@ -24,6 +25,10 @@ pub(super) fn of_input(input: Input) -> String {
             component,
         } => called("attribute", &[location, component]),
         Input::Varying(at) => called("varying", &[at]),
+        Input::Derivative { scalar, axis } => match axis {
+            Axis::X => called("derivative_x", &[scalar]),
+            Axis::Y => called("derivative_y", &[scalar]),
+        },
         Input::VertexIndex => called("vertex_index", &[]),
         Input::InstanceIndex => called("instance_index", &[]),
         Input::Position(at) => called("position", &[at]),
@@ -46,6 +51,14 @@ pub(super) fn input(name: &str, numbers: &[u32]) -> Option<Input> {
             component,
         },
         ("varying", &[at]) => Input::Varying(at),
+        ("derivative_x", &[scalar]) => {
+            let axis = Axis::X;
+            Input::Derivative { scalar, axis }
+        }
+        ("derivative_y", &[scalar]) => {
+            let axis = Axis::Y;
+            Input::Derivative { scalar, axis }
+        }
         ("vertex_index", []) => Input::VertexIndex,
         ("instance_index", []) => Input::InstanceIndex,
         ("position", &[at]) => Input::Position(at),

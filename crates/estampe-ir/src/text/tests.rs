@@ -14,6 +14,8 @@ input position(0)
 input local_invocation_id(2)
 input workgroup_id(0)
 input cover
+input derivative_x(3)
+input derivative_y(4)
 output color(0, 3)
 output second_color(1)
 output clip_distance(7)

@@ -18,11 +18,13 @@
 //! | `subgroup` | what the invocations of a quad exchange |
 //! | `expression`, `arithmetic`, `math`, `half`, `image` | values |
 //! | `wide` | 64-bit integers: two words |
+//! | `gradients` | the level of detail of textures that are sampled at varyings as they are |
 
 mod arithmetic;
 mod bindings;
 mod entry;
 mod expression;
+mod gradients;
 mod half;
 mod half_memory;
 mod image;
@@ -120,6 +122,7 @@ pub fn lower(
     lowering.entry_point(point, function)?;
     let mut tree = lowering.builder.finish(lowering.outputs);
     passes::optimise(&mut tree);
+    gradients::take_gradients(&mut tree, &lowering.varyings);
     Ok(StageSource {
         tree,
         varyings: lowering.varyings,

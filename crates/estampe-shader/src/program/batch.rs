@@ -3,10 +3,11 @@
 use super::stage::Stage;
 use estampe_ir::interface::{BufferSlot, Input, Output};
 use estampe_ir::interpreter::{Buffer, InputData, OutputData, cells};
+use estampe_ir::op::Axis;
 use estampe_types::{Bindings, FragmentBatch, VertexBatch};
 use std::cell::Cell;
 
-/// The scalars of a packet of each kind.
+/// The scalars of a packet of each kind. A fragment's varyings have derivatives after them.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Widths {
     pub(super) attributes: usize,
@@ -64,10 +65,11 @@ pub(super) fn with_vertices<T>(
 }
 
 /// The places of a batch of fragments, of one packet each time if the sample index is read: it
-/// differs from packet to packet.
+/// differs from packet to packet. `gradients` lists the scalars that have derivatives, in ascending
+/// order.
 pub(super) fn with_fragments<E>(
     stage: &Stage,
-    (widths, immediates): (Widths, &[u32]),
+    (widths, gradients, immediates): (Widths, &[usize], &[u32]),
     batch: FragmentBatch<'_>,
     mut run: impl FnMut(usize, &[InputData<'_>], &[OutputData<'_>]) -> Result<(), E>,
 ) -> Result<(), E> {
@@ -77,13 +79,24 @@ pub(super) fn with_fragments<E>(
     let (coverage, colors) = (cells(batch.coverage), cells(batch.colors));
     let (depths, masks) = (cells(batch.depths), cells(batch.sample_masks));
     let step = if by_packet { 1 } else { all.max(1) };
+    let scalars = widths.varyings + 2 * gradients.len();
     for first in (0..all).step_by(step) {
         let coverage: &[Cell<u16>] = &coverage[first..];
         let floats = |packets, part: usize, stride: usize| {
             InputData::floats(packets, first * stride + part, stride)
         };
         let input = |input: &Input| match *input {
-            Input::Varying(scalar) => floats(batch.varyings, scalar as usize, widths.varyings),
+            Input::Varying(scalar) => floats(batch.varyings, scalar as usize, scalars),
+            Input::Derivative { scalar, axis } => {
+                let first = match axis {
+                    Axis::X => widths.varyings,
+                    Axis::Y => widths.varyings + gradients.len(),
+                };
+                match gradients.binary_search(&(scalar as usize)) {
+                    Ok(at) => floats(batch.varyings, first + at, scalars),
+                    Err(_) => InputData::Uniform(0),
+                }
+            }
             Input::Position(part) => floats(batch.positions, part as usize, 4),
             Input::FrontFacing => {
                 InputData::Mask(batch.front_facing.get(first..).unwrap_or_default())

@@ -5,6 +5,7 @@ use super::facts::Facts;
 use estampe_ir::interface::{Input, Output};
 use estampe_types::BindingType;
 use estampe_types::shader::{DepthOutput, Interface, Interpolation, Sampling};
+use std::collections::BTreeSet;
 
 /// A varying: some scalars at a location.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -104,7 +105,7 @@ pub(super) struct Links {
 
 impl Links {
     /// Links two stages. The varyings that the fragment stage does not read are dropped, and those
-    /// that it reads are numbered anew.
+    /// that it reads are numbered anew, with their derivatives.
     pub(super) fn new(
         vertex: &StageSource,
         fragment: Option<&mut StageSource>,
@@ -146,12 +147,23 @@ impl Links {
                 });
             }
             for component in 0..read.components {
-                let scalar = Input::Varying(read.first + component);
-                let Some(input) = unlinked.iter().position(|input| *input == scalar) else {
-                    continue;
-                };
+                let scalar = read.first + component;
                 let number = u32::try_from(read_scalars.len()).unwrap_or(u32::MAX);
-                inputs[input] = Input::Varying(number);
+                let mut is_read = false;
+                for (input, unlinked) in inputs.iter_mut().zip(&unlinked) {
+                    *input = match *unlinked {
+                        Input::Varying(of) if of == scalar => Input::Varying(number),
+                        Input::Derivative { scalar: of, axis } if of == scalar => {
+                            let scalar = number;
+                            Input::Derivative { scalar, axis }
+                        }
+                        _ => continue,
+                    };
+                    is_read = true;
+                }
+                if !is_read {
+                    continue;
+                }
                 of_vertex[(written.first + component) as usize] = Some(number);
                 read_scalars.push((read.interpolation, read.sampling));
             }
@@ -190,6 +202,7 @@ pub(super) fn interface(
         &fragment.tree.interface.inputs,
         &fragment.tree.interface.outputs,
     );
+    interface.gradients = gradients(inputs);
     let targets = outputs.iter().filter_map(|output| match output {
         Output::Color { target, .. } => Some(*target as usize + 1),
         _ => None,
@@ -213,6 +226,15 @@ pub(super) fn interface(
     interface.writes_sample_mask = outputs.contains(&Output::SampleMask);
     Facts::of(&fragment.tree).add_to(&mut interface);
     interface
+}
+
+/// The scalars of the varyings whose derivatives are read, in ascending order.
+fn gradients(inputs: &[Input]) -> Vec<usize> {
+    let scalars = inputs.iter().filter_map(|input| match *input {
+        Input::Derivative { scalar, .. } => Some(scalar as usize),
+        _ => None,
+    });
+    scalars.collect::<BTreeSet<usize>>().into_iter().collect()
 }
 
 /// The components of each attribute that is read, by location.

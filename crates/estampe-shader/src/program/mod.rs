@@ -179,7 +179,8 @@ impl Program for TextProgram {
             return;
         }
         let (buffers, textures) = (buffers(stage, bindings), stage.textures(bindings));
-        let places = (self.widths, &bindings.immediates[..]);
+        let gradients = &self.interface.gradients[..];
+        let places = (self.widths, gradients, &bindings.immediates[..]);
         let run = with_fragments(stage, places, batch, |packets, inputs, outputs| {
             stage.run(level, (&textures, &buffers), packets, (inputs, outputs))
         });

@@ -15,8 +15,9 @@ pub(super) fn sample(texture: &SampledTexture, access: &mut TextureAccess<'_>) {
     }
 }
 
-/// One packet with two coordinates and nothing else, sampled by its quads or in the finest level,
-/// or compared in a shadow map; false if that is not what is asked, and nothing is done.
+/// One packet with two coordinates and nothing else, sampled by its quads, by gradients or in the
+/// finest level, or compared in a shadow map; false if that is not what is asked, and nothing is
+/// done.
 #[inline]
 fn sample_common(texture: &SampledTexture, access: &mut TextureAccess<'_>) -> bool {
     let op = access.op;
@@ -31,19 +32,14 @@ fn sample_common(texture: &SampledTexture, access: &mut TextureAccess<'_>) -> bo
     };
     match (op.query, &op.level) {
         (TextureQuery::Sample, LevelOfDetail::Implicit) if mask == whole_quads(mask) => {
-            let asked = PacketRequest {
-                at: [uv[0], uv[1], PacketRequest::ZEROS.at[2]],
-                ..PacketRequest::ZEROS
-            };
-            sample_into(texture, &asked, access)
+            sample_into(texture, &at(uv, PacketLod::Implicit), access)
         }
         (TextureQuery::Sample, LevelOfDetail::Zero) => {
-            let asked = PacketRequest {
-                at: [uv[0], uv[1], PacketRequest::ZEROS.at[2]],
-                lod: PacketLod::Level,
-                ..PacketRequest::ZEROS
-            };
-            sample_into(texture, &asked, access)
+            sample_into(texture, &at(uv, PacketLod::Level), access)
+        }
+        (TextureQuery::Sample, LevelOfDetail::Gradient { .. }) => {
+            let asked = with_gradients(floats_of(access.operands()));
+            asked.is_some_and(|asked| sample_into(texture, &asked, access))
         }
         (TextureQuery::SampleCompare, _) => {
             let reference = floats_of(access.reference().unwrap_or_default()).first();
@@ -56,6 +52,29 @@ fn sample_common(texture: &SampledTexture, access: &mut TextureAccess<'_>) -> bo
         }
         _ => false,
     }
+}
+
+/// Two coordinates, with a level of detail that takes no other operands.
+#[inline(always)]
+fn at<'a>([u, v]: [&'a Packet<f32>; 2], lod: PacketLod) -> PacketRequest<'a> {
+    PacketRequest {
+        at: [u, v, PacketRequest::ZEROS.at[2]],
+        lod,
+        ..PacketRequest::ZEROS
+    }
+}
+
+/// Two coordinates, with their derivatives along x, then along y.
+#[inline(always)]
+fn with_gradients(operands: &[Packet<f32>]) -> Option<PacketRequest<'_>> {
+    let [u, v, u_along_x, v_along_x, u_along_y, v_along_y] = operands else {
+        return None;
+    };
+    let zeros = PacketRequest::ZEROS.at[2];
+    Some(PacketRequest {
+        gradients: [u_along_x, v_along_x, zeros, u_along_y, v_along_y, zeros],
+        ..at([u, v], PacketLod::Gradients)
+    })
 }
 
 /// Samples one packet; false if the access has no room for a colour.
@@ -110,8 +129,8 @@ fn sample_any(texture: &SampledTexture, access: &mut TextureAccess<'_>) {
     }
 }
 
-/// Samples several textures at the same coordinates in whole quads; false if that is not what the
-/// accesses ask for, and nothing is done.
+/// Samples several textures at the same coordinates, by whole quads or by gradients; false if that
+/// is not what the accesses ask for, and nothing is done.
 pub(super) fn sample_all(
     textures: &[Option<&SampledTexture>],
     accesses: &mut TextureAccesses<'_>,
@@ -120,7 +139,7 @@ pub(super) fn sample_all(
     let Some(&Some(first)) = textures.first() else {
         return false;
     };
-    if mask != whole_quads(mask) || textures.len() > MOST {
+    if textures.len() > MOST {
         return false;
     }
     let mut all = [first; MOST];
@@ -131,15 +150,13 @@ pub(super) fn sample_all(
         *to = texture;
     }
     let (operands, results) = accesses.all();
-    let ([u, v, ..], (colors, [])) = (
-        floats_of(operands),
-        floats_of_mut(results).as_chunks_mut::<4>(),
-    ) else {
-        return false;
+    let request = match floats_of(operands) {
+        [u, v] if mask == whole_quads(mask) => Some(at([u, v], PacketLod::Implicit)),
+        operands => with_gradients(operands),
     };
-    let request = PacketRequest {
-        at: [u, v, PacketRequest::ZEROS.at[2]],
-        ..PacketRequest::ZEROS
+    let (Some(request), (colors, [])) = (request, floats_of_mut(results).as_chunks_mut::<4>())
+    else {
+        return false;
     };
     SampledTexture::sample_requests(&all[..textures.len()], &request, colors);
     true
@@ -180,24 +197,30 @@ pub(super) fn compare_all(
     let Some((texture, depths)) = texture.and_then(|one| Some((one, one.depths()?))) else {
         return false;
     };
-    // The coordinates and the reference of each.
+    let ops = accesses.ops;
     let (operands, shares) = accesses.all();
-    let (each, []) = floats_of(operands).as_chunks::<3>() else {
+    let (mut left, shares) = (floats_of(operands), floats_of_mut(shares));
+    let (Some(zeros), true) = (left.first(), ops.len() <= MOST) else {
         return false;
     };
-    let (Some([_, _, reference]), true) = (each.first(), each.len() <= MOST) else {
-        return false;
-    };
-    let mut at = [[reference; 2]; MOST];
-    for (at, [u, v, _]) in at.iter_mut().zip(each) {
-        *at = [u, v];
+    // Shadow maps have one level: gradients between the coordinates and the reference do not count.
+    let have_gradients = left.len() != 3 * ops.len();
+    let (mut at, mut reference) = ([[zeros; 2]; MOST], zeros);
+    for (at, op) in at.iter_mut().zip(ops) {
+        let words = if have_gradients { op.words() } else { 3 };
+        let Some((operands, others)) = left.split_at_checked(words) else {
+            return false;
+        };
+        let [u, v, .., of_op] = operands else {
+            return false;
+        };
+        (*at, reference, left) = ([u, v], of_op, others);
     }
-    let at = &at[..each.len()];
     compare_packets(
         depths,
         texture.level(),
-        (at, reference),
-        floats_of_mut(shares),
+        (&at[..ops.len()], reference),
+        shares,
     );
     true
 }

@@ -204,6 +204,10 @@ impl Selector<'_> {
             1 => Common::Nothing,
             _ => Common::of(&textures),
         };
+        if common == Common::Coordinates {
+            // All have the operands of the first.
+            operands = textures.first().map_or(0, TextureOp::words);
+        }
         let served = Served {
             kind: Kind::Textures(textures, common),
             operands,
@@ -247,7 +251,7 @@ impl Selector<'_> {
             for (of_call, half) in each_half(served) {
                 let offset = self.half_words(half);
                 let words = ops.iter().flat_map(|(op, _)| words(op));
-                for (value, to) in words.zip(places(of_call)) {
+                for (value, to) in words.take(inputs).zip(places(of_call)) {
                     let word = self.word_register(value, half);
                     self.store_words((MemoryBase::Frame, to + offset), None, word);
                 }

@@ -27,6 +27,7 @@ impl Textures for Told {
         for packet in 0..access.packets {
             let [x, y] = [0, 1].map(|at| access.coordinate(at)[packet]);
             let more = access.level_of_detail().or(access.reference());
+            let more = more.or(access.gradient(1, 0));
             let level = more.map_or(Packet([access.op.texture; LANES]), |more| more[packet]);
             let mask = access.mask[packet];
             for at in 0..access.results() {
@@ -126,7 +127,7 @@ fn sampling_together() -> Kernel {
     }
     let [u, v, depth] = [0, 1, 2].map(|at| b.input(Input::Varying(at)));
     let mask = b.input(Input::FrontFacing);
-    let access = |b: &mut Builder, (query, texture): (TextureQuery, u32), at: [Value; 2]| {
+    let access = |b: &mut Builder, (query, texture): (TextureQuery, u32), at: [Value; 2], level| {
         let compares = query == TextureQuery::SampleCompare;
         b.op(Op::Texture(Box::new(TextureOp {
             query,
@@ -135,11 +136,7 @@ fn sampling_together() -> Kernel {
             coordinates: at.to_vec(),
             layer: None,
             offset: [0; 3],
-            level: if compares {
-                LevelOfDetail::Zero
-            } else {
-                LevelOfDetail::Implicit
-            },
+            level,
             reference: compares.then_some(depth),
             sample: None,
             stored: Vec::new(),
@@ -147,14 +144,21 @@ fn sampling_together() -> Kernel {
         })))
     };
     let (sample, compare) = (TextureQuery::Sample, TextureQuery::SampleCompare);
+    let by_quads = LevelOfDetail::Implicit;
+    let gradient = LevelOfDetail::Gradient {
+        x: vec![depth, u],
+        y: vec![v, depth],
+    };
     let mut texels = Vec::new();
     for texture in 0..3 {
-        texels.extend(access(&mut b, (sample, texture), [u, v]));
+        let asked = (sample, texture);
+        texels.extend(access(&mut b, asked, [u, v], by_quads.clone()));
         let beside = b.binary(Binary::Add, u, texels[0]);
         let step = b.word(texture);
         let at = b.binary(Binary::Add, v, step);
-        texels.extend(access(&mut b, (compare, 1), [u, at]));
-        texels.extend(access(&mut b, (sample, texture), [beside, v]));
+        texels.extend(access(&mut b, (compare, 1), [u, at], LevelOfDetail::Zero));
+        texels.extend(access(&mut b, asked, [beside, v], by_quads.clone()));
+        texels.extend(access(&mut b, asked, [u, v], gradient.clone()));
     }
     let nothing = b.word(0);
     let select = |texel: &Value| b.select(mask, *texel, nothing);
@@ -170,9 +174,10 @@ fn accesses_that_have_something_in_common_are_asked_together() {
     compare(&kernel, &mut |go| words_of(&kernel, &given, &[], &told, go));
     let together = told.together.into_inner().unwrap();
     if Isa::best().is_some() {
-        for asked in [(Common::Coordinates, 3), (Common::Reference, 3)] {
+        // By quads, and by gradients.
+        for (asked, calls) in [((Common::Coordinates, 3), 2), ((Common::Reference, 3), 1)] {
             let count = together.iter().filter(|found| **found == asked).count();
-            assert!(count >= PACKETS, "{asked:?}: {together:?}");
+            assert!(count >= calls * PACKETS, "{asked:?}: {together:?}");
         }
         assert!(
             together
