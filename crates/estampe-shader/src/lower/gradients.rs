@@ -7,15 +7,16 @@
 //! An implicit level of detail comes from the differences within a quad of 2×2 fragments. So the
 //! fragments of the quad that the primitive does not cover must be shaded, too. But the pipeline
 //! has the plane of each varying, and knows the varying's derivatives at each fragment. Where each
-//! coordinate of a sample is a varying as it is, the derivatives become inputs of the stage, and
-//! the gradient of the sample, in any control flow. A shader that samples only so takes no
-//! derivatives, and needs no helper invocations.
+//! coordinate of each sample is a varying as it is, the derivatives become inputs of the stage, and
+//! the gradients of the samples, in any control flow. The shader then needs no helper invocations.
 //!
-//! These samples stay as they are:
+//! All samples stay as they are if one of them, or anything else, needs its quad: one is as dear as
+//! all. Such are
 //!
-//! * at coordinates that the shader computes;
-//! * at varyings that are interpolated beside the centre, at a place of its own in each fragment;
-//! * with a bias.
+//! * samples at coordinates that the shader computes;
+//! * samples at varyings that are interpolated beside the centre, each fragment at its own place;
+//! * samples with a bias;
+//! * derivatives, and what invocations of a quad exchange.
 
 use crate::program::VaryingSlot;
 use estampe_ir::interface::{Input, Stage};
@@ -25,8 +26,8 @@ use estampe_ir::{Op, Type, Value};
 use estampe_types::shader::Sampling;
 use std::collections::HashMap;
 
-/// Gives samples with an implicit level of detail the gradients of their coordinates, where these
-/// are varyings as they are; in the fragment stage only.
+/// Gives samples with an implicit level of detail the gradients of their coordinates, if these are
+/// varyings as they are and nothing else needs quads; in the fragment stage only.
 pub(super) fn take_gradients(tree: &mut Tree, varyings: &[VaryingSlot]) {
     if tree.stage != Stage::Fragment {
         return;
@@ -55,11 +56,17 @@ pub(super) fn take_gradients(tree: &mut Tree, varyings: &[VaryingSlot]) {
             gradients.scalar_of.insert(first, *scalar);
         }
     });
+    let mut needs_quads = false;
     each_op(&mut body, &mut |op, _| {
-        if let Op::Texture(op) = op {
-            gradients.rewrite(op);
-        }
+        needs_quads |= gradients.needs_quads(op)
     });
+    if !needs_quads {
+        each_op(&mut body, &mut |op, _| {
+            if let Op::Texture(op) = op {
+                gradients.rewrite(op);
+            }
+        });
+    }
     body.splice(..0, gradients.reads);
     tree.body = body;
 }
@@ -76,16 +83,32 @@ struct Gradients<'a> {
 }
 
 impl Gradients<'_> {
-    fn rewrite(&mut self, op: &mut TextureOp) {
+    /// True if an operation looks at other invocations of its quad, whatever becomes of it here.
+    fn needs_quads(&self, op: &Op) -> bool {
+        match op {
+            Op::Derivative { .. } | Op::QuadLane { .. } => true,
+            Op::Texture(op) if op.sampler.is_some() => match op.level {
+                LevelOfDetail::Implicit => self.scalars(op).is_none(),
+                LevelOfDetail::Bias(_) => true,
+                _ => false,
+            },
+            _ => false,
+        }
+    }
+
+    /// The scalars of the varyings that are the coordinates of a sample.
+    fn scalars(&self, op: &TextureOp) -> Option<Vec<u32>> {
         let samples = matches!(op.query, TextureQuery::Sample | TextureQuery::SampleCompare);
-        if !samples || op.sampler.is_none() || op.level != LevelOfDetail::Implicit {
+        let scalars = op.coordinates.iter();
+        let scalars = scalars.map(|at| self.scalar_of.get(at).copied());
+        scalars.collect::<Option<_>>().filter(|_| samples)
+    }
+
+    fn rewrite(&mut self, op: &mut TextureOp) {
+        if op.sampler.is_none() || op.level != LevelOfDetail::Implicit {
             return;
         }
-        let scalars = op
-            .coordinates
-            .iter()
-            .map(|at| self.scalar_of.get(at).copied());
-        let Some(scalars) = scalars.collect::<Option<Vec<u32>>>() else {
+        let Some(scalars) = self.scalars(op) else {
             return;
         };
         let mut along = |axis| {

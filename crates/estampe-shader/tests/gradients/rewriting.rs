@@ -197,14 +197,43 @@ fn variables_that_branches_change_have_the_level_of_their_quad() {
     assert_eq!(levels(&stage.tree), [From::Quad]);
 }
 
+/// One quad needs all helper invocations, so that the others may as well have theirs.
 #[test]
-fn samples_are_looked_at_one_by_one() {
-    let stage = fragment(
-        "return textureSample(map, s, in.uv) + textureSample(map, s, in.uv + 0.01)
-            + textureSampleBias(map, s, in.uv, 1.0);",
+fn samples_stay_if_anything_needs_its_quad() {
+    let of = |more: &str| {
+        let stage = fragment(&format!("return textureSample(map, s, in.uv) + {more};"));
+        levels(&stage.tree)
+    };
+    let near = || From::Varyings(vec![0, 1]);
+    assert_eq!(of("in.direction.xyzz"), [near()]);
+    assert_eq!(
+        of("textureSample(other, s, in.on_screen)"),
+        [near(), From::Varyings(vec![5, 6])]
     );
-    let expected = [From::Varyings(vec![0, 1]), From::Quad, From::Shader];
-    assert_eq!(levels(&stage.tree), expected);
+    assert_eq!(
+        of("textureSampleLevel(other, s, in.uv + 0.1, 2.0)"),
+        [near(), From::Shader]
+    );
+    assert_eq!(
+        of("textureSample(other, s, in.uv + 0.01)"),
+        [From::Quad, From::Quad]
+    );
+    assert_eq!(
+        of("textureSample(other, s, in.inside)"),
+        [From::Quad, From::Quad]
+    );
+    assert_eq!(
+        of("textureSampleBias(other, s, in.uv, 1.0)"),
+        [From::Quad, From::Shader]
+    );
+    assert_eq!(of("vec4f(dpdx(in.uv.x))"), [From::Quad]);
+    assert_eq!(of("vec4f(fwidthFine(in.direction), 1.0)"), [From::Quad]);
+    // What nothing uses needs nothing.
+    let stage = fragment(
+        "let unused = dpdx(in.uv);
+        return textureSample(map, s, in.uv);",
+    );
+    assert_eq!(levels(&stage.tree), [near()]);
 }
 
 #[test]
@@ -215,13 +244,18 @@ fn glsl_does_the_same() {
         layout(location = 1) in vec2 uv;
         layout(location = 0) out vec4 color;
         vec4 at(vec2 place) { return texture(sampler2D(map, s), place); }
-        void main() { color = at(uv) + at(uv * 0.5) + texture(sampler2D(map, s), uv, 1.0); }";
-    let stage = Stage::Fragment;
-    let module = load(Source::Glsl { text, stage }, &Options::default());
-    let module = module.unwrap_or_else(|errors| panic!("{errors}"));
-    let lowered = lower(&module.module, &module.info, 0).unwrap_or_else(|error| panic!("{error}"));
-    let expected = [From::Varyings(vec![0, 1]), From::Quad, From::Shader];
-    assert_eq!(levels(&lowered.tree), expected);
+        void main() { color = SUM; }";
+    let of = |sum: &str| {
+        let (text, stage) = (&*text.replace("SUM", sum), Stage::Fragment);
+        let module = load(Source::Glsl { text, stage }, &Options::default());
+        let module = module.unwrap_or_else(|errors| panic!("{errors}"));
+        let lowered = lower(&module.module, &module.info, 0);
+        levels(&lowered.unwrap_or_else(|error| panic!("{error}")).tree)
+    };
+    assert_eq!(of("at(uv)"), [From::Varyings(vec![0, 1])]);
+    assert_eq!(of("at(uv) + at(uv * 0.5)"), [From::Quad, From::Quad]);
+    let biased = of("at(uv) + texture(sampler2D(map, s), uv, 1.0)");
+    assert_eq!(biased, [From::Quad, From::Shader]);
 }
 
 /// Numbers of half the size are rounded, which computes them.

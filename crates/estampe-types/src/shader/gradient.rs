@@ -5,10 +5,10 @@ use crate::{Interpolation, Real};
 
 /// A varying with its derivatives in the window, which a fragment takes from its primitive.
 ///
-/// A texture that is sampled at a varying with a gradient takes its level of detail from it, fragment
-/// by fragment. Without, the level of detail comes from the differences within a quad of 2×2
-/// fragments, which must then be shaded even where the primitive covers only one of them. Shaders as
-/// text have gradients wherever they sample a texture at a varying as it is.
+/// A texture that is sampled at a varying with a gradient takes its level of detail from it,
+/// fragment by fragment. Without, the level of detail comes from the differences within a quad of
+/// 2×2 fragments, which must then be shaded even where the primitive covers only one of them.
+/// Shaders as text have gradients if all their samples are at varyings as they are.
 ///
 /// ```
 /// use estampe_types::{Vec2, WithGradient};
