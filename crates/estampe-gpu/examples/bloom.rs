@@ -105,7 +105,7 @@ fn lights(device: &Device) -> Outcome<Texture> {
     Ok(screen.picture)
 }
 
-pub(crate) fn picture(device: &Device) -> Outcome<Texture> {
+fn picture(device: &Device) -> Outcome<Texture> {
     let sampler = device.create_sampler(&SamplerDescriptor::linear())?;
     let run = |filter: Filter, from: &Texture, into: ColorAttachment, blend| {
         let bound = scene::bind(device, &[scene::sampled(&from.view(), &sampler)])?;
@@ -141,4 +141,9 @@ pub(crate) fn picture(device: &Device) -> Outcome<Texture> {
 
 fn main() -> Outcome<()> {
     scene::write("bloom", picture)
+}
+
+#[test]
+fn bloom_draws_its_picture() {
+    scene::kept::check("bloom", picture);
 }

@@ -86,7 +86,7 @@ estampe::shader! {
     }
 }
 
-pub(crate) fn picture(device: &Device) -> Outcome<Texture> {
+fn picture(device: &Device) -> Outcome<Texture> {
     let (cube, ball) = (Solid::cube(device)?, Solid::sphere(device)?);
     let floor = Solid::plane(device, 30.0)?;
     let mut list = vec![(&floor, Mat4::IDENTITY, [0.8, 0.76, 0.7, 0.05])];
@@ -146,4 +146,9 @@ pub(crate) fn picture(device: &Device) -> Outcome<Texture> {
 
 fn main() -> Outcome<()> {
     scene::write("cube_map_one_pass", picture)
+}
+
+#[test]
+fn cube_map_one_pass_draws_its_picture() {
+    scene::kept::check("cube_map_one_pass", picture);
 }

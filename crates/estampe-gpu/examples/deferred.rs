@@ -98,7 +98,7 @@ fn lamps() -> Vec<f32> {
     (0..LAMPS).flat_map(lamp).collect()
 }
 
-pub(crate) fn picture(device: &Device) -> Outcome<Texture> {
+fn picture(device: &Device) -> Outcome<Texture> {
     // Twice the size of the picture.
     let [width, height] = SIZE.map(|side| side * 2);
     let image = |format| device.create_texture(&TextureDescriptor::new_2d(width, height, format));
@@ -145,4 +145,9 @@ pub(crate) fn picture(device: &Device) -> Outcome<Texture> {
 
 fn main() -> Outcome<()> {
     scene::write("deferred", picture)
+}
+
+#[test]
+fn deferred_draws_its_picture() {
+    scene::kept::check("deferred", picture);
 }

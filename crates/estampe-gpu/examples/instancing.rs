@@ -81,7 +81,7 @@ fn instances() -> Vec<[f32; 6]> {
     (0..SIDE * SIDE).map(instance).collect()
 }
 
-pub(crate) fn picture(device: &Device) -> Outcome<Texture> {
+fn picture(device: &Device) -> Outcome<Texture> {
     let screen = Screen::new(device)?;
     let cube = Solid::cube(device)?;
     let instances = instances();
@@ -124,4 +124,9 @@ pub(crate) fn picture(device: &Device) -> Outcome<Texture> {
 
 fn main() -> Outcome<()> {
     scene::write("instancing", picture)
+}
+
+#[test]
+fn instancing_draws_its_picture() {
+    scene::kept::check("instancing", picture);
 }

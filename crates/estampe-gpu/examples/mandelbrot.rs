@@ -52,7 +52,7 @@ fn paint(@builtin(global_invocation_id) id: vec3u) {
 ";
 
 /// Draws the picture.
-pub(crate) fn picture(device: &Device) -> Outcome<Texture> {
+fn picture(device: &Device) -> Outcome<Texture> {
     let module = device.create_shader_module(&ShaderModuleDescriptor {
         label: Some("mandelbrot.wgsl"),
         ..ShaderModuleDescriptor::new(ShaderSource::Wgsl(SHADERS))
@@ -105,4 +105,13 @@ fn main() -> Outcome<()> {
     let device = Device::new(&DeviceDescriptor::default())?;
     device.write_png(&picture(&device)?, out)?;
     Ok(())
+}
+
+#[cfg(test)]
+#[path = "scene/kept.rs"]
+mod kept;
+
+#[test]
+fn mandelbrot_draws_its_picture() {
+    kept::check("mandelbrot", picture);
 }

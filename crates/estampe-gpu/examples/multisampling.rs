@@ -99,7 +99,7 @@ fn draw(device: &Device, samples: u32) -> Outcome<Texture> {
     Ok(picture)
 }
 
-pub(crate) fn picture(device: &Device) -> Outcome<Texture> {
+fn picture(device: &Device) -> Outcome<Texture> {
     let picture = scene::target(device, FORMAT, 1)?.view();
     let [width, height] = SIZE.map(|side| side / 2);
     for (half, samples) in [(0, 1), (1, 8)] {
@@ -121,4 +121,9 @@ pub(crate) fn picture(device: &Device) -> Outcome<Texture> {
 
 fn main() -> Outcome<()> {
     scene::write("multisampling", picture)
+}
+
+#[test]
+fn multisampling_draws_its_picture() {
+    scene::kept::check("multisampling", picture);
 }

@@ -79,7 +79,7 @@ estampe::shader! {
     }
 }
 
-pub(crate) fn picture(device: &Device) -> Outcome<Texture> {
+fn picture(device: &Device) -> Outcome<Texture> {
     let mesh = estampe_shapes::teapot::teapot(4);
     let vertices = mesh.positions.iter().zip(&mesh.normals);
     let vertices: Vec<[f32; 6]> = vertices
@@ -116,4 +116,9 @@ pub(crate) fn picture(device: &Device) -> Outcome<Texture> {
 
 fn main() -> Outcome<()> {
     scene::write("normals", picture)
+}
+
+#[test]
+fn normals_draws_its_picture() {
+    scene::kept::check("normals", picture);
 }

@@ -60,7 +60,7 @@ fn pick(device: &Device, numbers: &Texture, [x, y]: [u32; 2]) -> Outcome<Option<
     Ok((number != NOTHING).then_some(number))
 }
 
-pub(crate) fn picture(device: &Device) -> Outcome<Texture> {
+fn picture(device: &Device) -> Outcome<Texture> {
     let screen = Screen::new(device)?;
     let solids = [Solid::cube(device)?, Solid::sphere(device)?];
     let mut list = Vec::new();
@@ -118,4 +118,9 @@ pub(crate) fn picture(device: &Device) -> Outcome<Texture> {
 
 fn main() -> Outcome<()> {
     scene::write("picking", picture)
+}
+
+#[test]
+fn picking_draws_its_picture() {
+    scene::kept::check("picking", picture);
 }

@@ -74,7 +74,7 @@ estampe::shader! {
     }
 }
 
-pub(crate) fn picture(device: &Device) -> Outcome<Texture> {
+fn picture(device: &Device) -> Outcome<Texture> {
     let (cube, ball) = (Solid::cube(device)?, Solid::sphere(device)?);
     let floor = Solid::plane(device, 30.0)?;
     let sky = Mat4::scale([40.0; 3]);
@@ -142,4 +142,9 @@ pub(crate) fn picture(device: &Device) -> Outcome<Texture> {
 
 fn main() -> Outcome<()> {
     scene::write("reflections", picture)
+}
+
+#[test]
+fn reflections_draws_its_picture() {
+    scene::kept::check("reflections", picture);
 }

@@ -80,7 +80,7 @@ estampe::shader! {
     }
 }
 
-pub(crate) fn picture(device: &Device) -> Outcome<Texture> {
+fn picture(device: &Device) -> Outcome<Texture> {
     let screen = Screen::new(device)?;
     let (floor, cube) = (Solid::plane(device, 60.0)?, Solid::cube(device)?);
     let ball = Solid::sphere(device)?;
@@ -143,4 +143,9 @@ pub(crate) fn picture(device: &Device) -> Outcome<Texture> {
 
 fn main() -> Outcome<()> {
     scene::write("shadow_map", picture)
+}
+
+#[test]
+fn shadow_map_draws_its_picture() {
+    scene::kept::check("shadow_map", picture);
 }

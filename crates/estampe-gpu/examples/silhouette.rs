@@ -109,7 +109,7 @@ fn indices() -> Vec<u32> {
     indices
 }
 
-pub(crate) fn picture(device: &Device) -> Outcome<Texture> {
+fn picture(device: &Device) -> Outcome<Texture> {
     let rows = (0..CELLS[1]).flat_map(|along| (0..CELLS[0]).map(move |at| vertex(at, along)));
     let mesh = Solid::new(device, &rows.collect::<Vec<_>>(), indices())?;
     let screen = Screen::new(device)?;
@@ -143,4 +143,9 @@ pub(crate) fn picture(device: &Device) -> Outcome<Texture> {
 
 fn main() -> Outcome<()> {
     scene::write("silhouette", picture)
+}
+
+#[test]
+fn silhouette_draws_its_picture() {
+    scene::kept::check("silhouette", picture);
 }

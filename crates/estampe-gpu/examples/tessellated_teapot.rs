@@ -98,7 +98,7 @@ estampe::shader! {
 }
 
 #[expect(clippy::cast_possible_truncation, reason = "a few digits")]
-pub(crate) fn picture(device: &Device) -> Outcome<Texture> {
+fn picture(device: &Device) -> Outcome<Texture> {
     let points = POINTS.map(|[x, y, z]| [x as f32, z as f32, -y as f32]);
     let indices = PATCHES.iter().flatten().map(|at| u32::from(*at) - 1);
     let patches = Solid::new(device, &points, indices.collect())?;
@@ -147,4 +147,9 @@ pub(crate) fn picture(device: &Device) -> Outcome<Texture> {
 
 fn main() -> Outcome<()> {
     scene::write("tessellated_teapot", picture)
+}
+
+#[test]
+fn tessellated_teapot_draws_its_picture() {
+    scene::kept::check("tessellated_teapot", picture);
 }

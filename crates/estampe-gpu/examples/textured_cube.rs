@@ -97,7 +97,7 @@ fn group(device: &Device, tiles: &Texture, world_from_object: Mat4) -> Outcome<B
     })?)
 }
 
-pub(crate) fn picture(device: &Device) -> Outcome<Texture> {
+fn picture(device: &Device) -> Outcome<Texture> {
     let screen = Screen::new(device)?;
     let (cube, floor) = (Solid::cube(device)?, Solid::plane(device, 60.0)?);
     let bright = tiles(device, [[232, 214, 178, 255], [176, 66, 48, 255]])?;
@@ -129,4 +129,9 @@ pub(crate) fn picture(device: &Device) -> Outcome<Texture> {
 
 fn main() -> Outcome<()> {
     scene::write("textured_cube", picture)
+}
+
+#[test]
+fn textured_cube_draws_its_picture() {
+    scene::kept::check("textured_cube", picture);
 }

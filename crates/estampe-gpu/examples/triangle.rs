@@ -33,7 +33,7 @@ estampe::shader! {
     }
 }
 
-pub(crate) fn picture(device: &Device) -> Outcome<Texture> {
+fn picture(device: &Device) -> Outcome<Texture> {
     // The picture. Colours are linear; an sRGB format stores them as monitors expect them.
     let format = TextureFormat::Rgba8UnormSrgb;
     let picture = device.create_texture(&TextureDescriptor::new_2d(320, 240, format))?;
@@ -72,4 +72,9 @@ pub(crate) fn picture(device: &Device) -> Outcome<Texture> {
 
 fn main() -> Outcome<()> {
     scene::write("triangle", picture)
+}
+
+#[test]
+fn triangle_draws_its_picture() {
+    scene::kept::check("triangle", picture);
 }

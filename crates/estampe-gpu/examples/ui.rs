@@ -79,7 +79,7 @@ estampe::shader! {
     }
 }
 
-pub(crate) fn picture(device: &Device) -> Outcome<Texture> {
+fn picture(device: &Device) -> Outcome<Texture> {
     let (white, gray, blue) = ([1.0; 3], [0.4, 0.45, 0.55], [0.05, 0.35, 0.9, 1.0]);
     let mut page = page::Page::default();
     page.panel([-40.0, 110.0, 180.0, 180.0], 90.0, [0.9, 0.1, 0.4, 0.8]);
@@ -145,4 +145,9 @@ pub(crate) fn picture(device: &Device) -> Outcome<Texture> {
 
 fn main() -> Outcome<()> {
     scene::write("ui", picture)
+}
+
+#[test]
+fn ui_draws_its_picture() {
+    scene::kept::check("ui", picture);
 }

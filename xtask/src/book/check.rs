@@ -40,7 +40,7 @@ const KEPT_PICTURES: &[(&str, &str, &str)] = &[
     ),
     (
         "docs/images/examples",
-        "crates/estampe-gpu/tests/examples.rs",
+        "crates/estampe-gpu/examples/scene/kept.rs",
         "docs/images/examples",
     ),
     (

@@ -3,6 +3,8 @@
 #![expect(dead_code, reason = "each example uses a part")]
 
 pub(crate) mod bezier;
+#[cfg(test)]
+pub(crate) mod kept;
 pub(crate) mod page;
 
 use estampe::state::{BlendState, ColorTargetState, MultisampleState, VertexBufferLayout};
