@@ -23,6 +23,7 @@
 // The rungs name this crate as the examples do.
 extern crate self as estampe_ladder;
 
+mod arguments;
 mod course;
 mod error;
 mod lit;

@@ -1,7 +1,8 @@
 //! The `main` of an example: arguments, a picture, a file.
 
-use crate::{Course, LadderError, Model, Picture, rung};
-use estampe_assets::image::{ImageFormat, decode};
+use crate::arguments::Arguments;
+use crate::{Course, LadderError, Model, Picture};
+use estampe_assets::image::decode;
 use estampe_assets::{AssetError, Limits, read_stream};
 use estampe_scene::Image;
 use std::fs::File;
@@ -57,71 +58,4 @@ fn write(path: &Path, bytes: &[u8]) -> Result<(), LadderError> {
         path: path.display().to_string(),
         cause,
     })
-}
-
-/// The arguments of an example.
-#[derive(Debug)]
-struct Arguments {
-    output: PathBuf,
-    format: ImageFormat,
-    model: Option<PathBuf>,
-    texture: Option<PathBuf>,
-}
-
-impl Arguments {
-    fn parse(
-        number: u32,
-        mut words: impl Iterator<Item = std::ffi::OsString>,
-    ) -> Result<Self, LadderError> {
-        let mut output = PathBuf::from(format!("{}.png", rung(number)?.name));
-        let (mut model, mut texture) = (None, None);
-        let usage = || {
-            let arguments = "the arguments are [-o FILE] [--model FILE] [--texture FILE]";
-            LadderError::Usage(arguments.to_owned())
-        };
-        while let Some(word) = words.next() {
-            let value = words.next().map(PathBuf::from).ok_or_else(usage)?;
-            match word.to_str() {
-                Some("-o") => output = value,
-                Some("--model") => model = Some(value),
-                Some("--texture") => texture = Some(value),
-                _ => return Err(usage()),
-            }
-        }
-        let format = ImageFormat::from_path(&output).ok_or_else(|| {
-            let name = output.display();
-            LadderError::Usage(format!("{name}: name the picture .png, .tga or .jpg"))
-        })?;
-        Ok(Self {
-            output,
-            format,
-            model,
-            texture,
-        })
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn parsed(words: &[&str]) -> Result<Arguments, LadderError> {
-        Arguments::parse(1, words.iter().map(std::ffi::OsString::from))
-    }
-
-    #[test]
-    fn arguments_are_an_output_and_a_model() {
-        let default = parsed(&[]).unwrap();
-        assert_eq!(default.output, Path::new("ladder_01_pixel.png"));
-        assert_eq!(default.model, None);
-        let given = parsed(&["--model", "a.obj", "-o", "b.tga"]).unwrap();
-        assert_eq!(given.format, ImageFormat::Tga);
-        assert_eq!(given.model.as_deref(), Some(Path::new("a.obj")));
-        for wrong in [&["-o"][..], &["a.png"], &["--size", "3"], &["-o", "a.gif"]] {
-            assert!(
-                matches!(parsed(wrong), Err(LadderError::Usage(_))),
-                "{wrong:?}"
-            );
-        }
-    }
 }
