@@ -35,6 +35,8 @@ pub(crate) enum RequestDetail<'a> {
     Level(&'a Packet<f32>),
     /// The derivatives of u and v along x, then along y.
     Gradients([&'a Packet<f32>; 4]),
+    /// ρ² of such derivatives, in texels of the base level.
+    Rho2(&'a Packet<f32>),
 }
 
 /// [`RequestDetail`] as a shader gives it.
@@ -43,6 +45,7 @@ pub(crate) enum Detail<R: Real> {
     Quads,
     Level(R),
     Gradients([Vec2<R>; 2]),
+    Rho2(R),
 }
 
 /// Lanes of a quad.
@@ -75,6 +78,10 @@ impl Request<'_> {
                 ];
                 RequestDetail::Gradients(derivatives.each_ref())
             }
+            Detail::Rho2(rho2) => {
+                levels = packet(rho2, first);
+                RequestDetail::Rho2(&levels)
+            }
         };
         let uv = [&u, &v];
         ask(&Request { uv, detail })
@@ -104,6 +111,7 @@ impl Request<'_> {
                 let [ux, vx, uy, vy] = derivatives.map(|of_lanes| of_lanes.0[lane]);
                 level_of_detail(rho2(Vec2::new(ux, vx), Vec2::new(uy, vy), size))
             }
+            RequestDetail::Rho2(rho2) => level_of_detail(rho2.0[lane]),
         }
     }
 }
@@ -225,6 +233,7 @@ impl Rgba8Texture {
                 let along_y = Vec2::new(load(like, uy, first), load(like, vy, first));
                 rho2(along_x, along_y, size)
             }
+            RequestDetail::Rho2(rho2) => load(like, rho2, first),
         };
         (uv, level_of_detail(rho2), self.guess_of_level(rho2))
     }

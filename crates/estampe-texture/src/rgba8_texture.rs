@@ -1,6 +1,7 @@
 //! [`Rgba8Texture`]: the common kind of texture with a sampler, as a shader holds it.
 
 use crate::filter::{Inside, Level, mix_colors, sample_level};
+use crate::lod::rho2;
 use crate::mixed::Mixed;
 use crate::request::Detail;
 use crate::texel::{Number, finish, linear_of_any, unpack};
@@ -119,9 +120,35 @@ impl Rgba8Texture {
         Self::sample_all_with(textures, uv, Detail::Quads)
     }
 
+    /// The level of detail of derivatives of (u, v) along x and y, reduced to one number for each
+    /// lane, so that the sampler gets one packet in place of four.
+    #[inline(always)]
+    fn detail_of<R: Real>(&self, [dx, dy]: [Vec2<R>; 2]) -> Detail<R> {
+        Detail::Rho2(rho2(dx, dy, self.levels[0].size))
+    }
+
+    /// Samples several textures at the same coordinates, with the level of detail from the given
+    /// derivatives of (u, v) along x and y.
+    #[inline(always)]
+    pub(crate) fn sample_all_grad<R: Real, const N: usize>(
+        textures: [&Self; N],
+        uv: Vec2<R>,
+        derivatives: [Vec2<R>; 2],
+    ) -> [Vec4<R>; N] {
+        let size = textures.first().map(|first| first.levels[0].size);
+        let is_one_size = textures
+            .iter()
+            .all(|texture| Some(texture.levels[0].size) == size);
+        let detail = match textures.first().filter(|_| is_one_size) {
+            Some(first) => first.detail_of(derivatives),
+            None => Detail::Gradients(derivatives),
+        };
+        Self::sample_all_with(textures, uv, detail)
+    }
+
     /// Samples several textures at the same coordinates and levels of detail.
     #[inline(always)]
-    pub(crate) fn sample_all_with<R: Real, const N: usize>(
+    fn sample_all_with<R: Real, const N: usize>(
         textures: [&Self; N],
         uv: Vec2<R>,
         detail: Detail<R>,
@@ -154,7 +181,7 @@ impl Rgba8Texture {
     /// y.
     #[inline(always)]
     pub fn sample_grad<R: Real>(&self, uv: Vec2<R>, dx: Vec2<R>, dy: Vec2<R>) -> Vec4<R> {
-        self.request(uv, Detail::Gradients([dx, dy]))
+        self.request(uv, self.detail_of([dx, dy]))
     }
 
     /// Samples at (u, v) at a level of detail: 0 is the base level, each further level is half as

@@ -3,7 +3,6 @@
 use super::coordinates::{Answers, Coordinates, Lod, TextureCoordinates, by_sixteen};
 use super::packet::{LevelTable, PacketFormat};
 use super::{PacketRequest, TexelView};
-use crate::request::Detail;
 use crate::rgba8_texture::is_rgba8;
 use crate::{Rgba8Texture, TextureError, sample_compare_level};
 use estampe_simd::Level;
@@ -199,11 +198,11 @@ impl SampledTexture {
         }
         if let Some(common) = all_common(&textures) {
             let two = |of: Vec3<R>| Vec2::new(of.x, of.y);
-            let detail = match gradient {
-                Some([dx, dy]) => Detail::Gradients([two(dx), two(dy)]),
-                None => Detail::Quads,
+            let uv = two(at.coordinates().uvw);
+            return match gradient {
+                Some([dx, dy]) => Rgba8Texture::sample_all_grad(common, uv, [two(dx), two(dy)]),
+                None => Rgba8Texture::sample_all(common, uv),
             };
-            return Rgba8Texture::sample_all_with(common, two(at.coordinates().uvw), detail);
         }
         let mut colors = [Vec4::repeat(at.coordinates().uvw.x); N];
         for (color, texture) in colors.iter_mut().zip(textures) {

@@ -10,6 +10,7 @@ mod create;
 mod descriptors;
 mod fetch;
 mod gather;
+mod gradients;
 mod naive;
 mod requests;
 mod several;
