@@ -5,7 +5,9 @@
 
 use super::base_color::{BaseColor, Painted};
 use super::{VertexTransforms, shading_normal};
-use estampe::{Flat, FragmentIn, FragmentOut, Real, Vec2, Vec3, Vec4, VertexIn, VertexOut};
+use estampe::{
+    Flat, FragmentIn, FragmentOut, Real, Vec2, Vec3, Vec4, VertexIn, VertexOut, WithGradient,
+};
 
 /// Unit shading normals in view space, (n + 1)/2: red to the right, green up, blue towards the eye.
 #[derive(Debug, Clone)]
@@ -143,20 +145,20 @@ pub struct CutOutFaceColors {
 estampe::shader! {
     impl Shader for CutOutFaceColors {
         type Attributes<R: Real> = (Vec3<R>, Vec3<R>, Vec2<R>, Vec4<R>); // position, face, uv, color
-        type Varyings<R: Real> = (Flat<Vec3<R>>, (Vec2<R>, Vec4<R>));
+        type Varyings<R: Real> = (Flat<Vec3<R>>, (WithGradient<Vec2<R>>, Vec4<R>));
 
         fn vertex<R: Real>(
             &self,
             _input: VertexIn<'_, R>,
             (position, face, uv, color): (Vec3<R>, Vec3<R>, Vec2<R>, Vec4<R>),
-        ) -> VertexOut<R, (Flat<Vec3<R>>, (Vec2<R>, Vec4<R>))> {
-            VertexOut::new(self.transforms.clip(position), (Flat(face), (uv, color)))
+        ) -> VertexOut<R, (Flat<Vec3<R>>, (WithGradient<Vec2<R>>, Vec4<R>))> {
+            VertexOut::new(self.transforms.clip(position), (Flat(face), (uv.into(), color)))
         }
 
         fn fragment<R: Real>(
             &self,
             input: FragmentIn<'_, R>,
-            (Flat(face), painted): (Flat<Vec3<R>>, (Vec2<R>, Vec4<R>)),
+            (Flat(face), painted): (Flat<Vec3<R>>, (WithGradient<Vec2<R>>, Vec4<R>)),
         ) -> FragmentOut<R> {
             let alpha = self.base.color(&input, painted).w;
             FragmentOut::color(face.point()).discard_unless(alpha.ge(input.real(0.5)))

@@ -210,6 +210,10 @@ mod tests {
         fn varyings(&self, _pixel: [u32; 2]) -> Vec<f32> {
             Vec::new()
         }
+
+        fn derivatives_at(&self, _: [u32; 2], _: [u8; 2]) -> Vec<[f32; 2]> {
+            Vec::new()
+        }
     }
 
     fn target(samples: u32) -> Target {

@@ -263,7 +263,7 @@ fn alpha_cuts_out_is_kept_or_ignored() {
     let (one, none) = (Vec3::repeat(1.0), Vec3::repeat(0.0));
     let run = |alpha, vertex_alpha: f32| {
         let color = Vec4::new(0.25, 0.5, 1.0, vertex_alpha);
-        let varyings = ((one, none, one, none), (Vec2::repeat(0.0), color));
+        let varyings = ((one, none, one, none), (Vec2::repeat(0.0).into(), color));
         painted(alpha).fragment(input(&bindings, Vec4::repeat(0.0)), varyings)
     };
     let out = run(Alpha::Kept, 0.5);

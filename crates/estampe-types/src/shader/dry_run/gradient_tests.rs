@@ -2,8 +2,7 @@
 
 use crate::shader::{VertexOut, interface_of};
 use crate::{
-    FragmentIn, FragmentOut, Interface, NoPerspective, Real, Vec2, Vec3, Vec4, VertexIn,
-    WithGradient,
+    FragmentIn, FragmentOut, Interface, NoPerspective, Vec2, Vec3, Vec4, VertexIn, WithGradient,
 };
 
 #[derive(Debug, Clone, Copy)]
