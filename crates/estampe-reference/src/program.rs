@@ -44,8 +44,8 @@ pub struct QuadInput<'a> {
     pub sample_index: u32,
     /// The covered samples.
     pub coverage: [u16; 4],
-    /// The interpolated scalars of the varyings, then the derivatives along x, and along y, of those
-    /// that the interface lists in `gradients`.
+    /// The interpolated scalars of the varyings, then the derivatives along x, and along y, of
+    /// those that the interface lists in `gradients`.
     pub varyings: [Vec<f32>; 4],
     /// The resources of the draw.
     pub bindings: &'a Bindings,

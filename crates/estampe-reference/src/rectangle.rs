@@ -109,8 +109,8 @@ impl LineRectangle {
         product as f32 / square as f32
     }
 
-    /// How the position along the line changes from a pixel to the next one on the right, and to the
-    /// next one below.
+    /// How the position along the line changes from a pixel to the next one on the right, and to
+    /// the next one below.
     #[must_use]
     pub fn slopes(&self) -> [f32; 2] {
         let [_, square] = self.along([0; 2]);

@@ -221,8 +221,8 @@ pub trait Real:
 
     /// One lane's value; `index` is below [`Real::LANES`].
     fn lane(self, index: usize) -> f32;
-    /// [`Real::lane`] for a sampler that stores all lanes: nothing but colours comes of them, so the
-    /// dry run takes no note of it.
+    /// [`Real::lane`] for a sampler that stores all lanes: nothing but colours comes of them, so
+    /// the dry run takes no note of it.
     #[doc(hidden)]
     #[inline(always)]
     fn lane_to_store(self, index: usize) -> f32 {

@@ -185,8 +185,8 @@ pub enum PipelineError {
         /// The largest number of each allowed.
         limit: usize,
     },
-    /// The program reads the derivative of a varying that it does not have, or does not list them in
-    /// ascending order.
+    /// The program reads the derivative of a varying that it does not have, or does not list them
+    /// in ascending order.
     #[error(
         "the program reads the derivative of scalar {scalar} of its {count} scalars of varyings: \
          list scalars that exist, in ascending order"

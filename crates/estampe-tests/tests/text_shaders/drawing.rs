@@ -3,11 +3,11 @@
 use super::{devices, module};
 use estampe::state::VertexBufferLayout;
 use estampe::{
-    BindGroup, BindGroupDescriptor, BindingResource, ColorAttachment, Coordinates, Device, Draw,
+    BindGroup, BindGroupDescriptor, BindingResource, ColorAttachment, Device, Draw,
     EntryPointDescriptor, FragmentIn, FragmentOut, Mat4, ProgramDescriptor, RenderPass,
     RenderPipeline, RenderPipelineDescriptor, SampledTexture, Sampler, SamplerDescriptor,
     ShaderSource, Texture, TextureDescriptor, TextureFormat, Vec2, Vec3, Vec4, VertexFormat,
-    VertexIn, VertexOut, bytes_of,
+    VertexIn, VertexOut, WithGradient, bytes_of,
 };
 use estampe_tests::Random;
 
@@ -51,22 +51,22 @@ struct Lit {
 estampe::shader! {
     impl Shader for Lit {
         type Attributes<R: Real> = (Vec3<R>, Vec3<R>, Vec2<R>);
-        type Varyings<R: Real> = (Vec3<R>, Vec2<R>);
+        type Varyings<R: Real> = (Vec3<R>, WithGradient<Vec2<R>>);
 
         fn vertex<R: Real>(
             &self,
             _: VertexIn<'_, R>,
             (position, normal, uv): (Vec3<R>, Vec3<R>, Vec2<R>),
-        ) -> VertexOut<R, (Vec3<R>, Vec2<R>)> {
-            VertexOut::new(self.clip_from_object.transform_point(position), (normal, uv))
+        ) -> VertexOut<R, (Vec3<R>, WithGradient<Vec2<R>>)> {
+            VertexOut::new(self.clip_from_object.transform_point(position), (normal, uv.into()))
         }
 
         fn fragment<R: Real>(
             &self,
             _: FragmentIn<'_, R>,
-            (normal, uv): (Vec3<R>, Vec2<R>),
+            (normal, uv): (Vec3<R>, WithGradient<Vec2<R>>),
         ) -> FragmentOut<R> {
-            let color = self.base.sample(Coordinates::d2(uv));
+            let color = self.base.sample(uv);
             let [x, y, z] = self.towards_light;
             let light = normal.normalize().dot(Vec3::new(x, y, z)).max(0.0) + self.ambient;
             let kept = !color.w.lt(0.25);

@@ -65,8 +65,8 @@ impl<R: Real> Coordinates<R> {
 pub trait TextureCoordinates<R: Real>: Copy {
     /// The coordinates, layer 0 if they have none.
     fn coordinates(self) -> Coordinates<R>;
-    /// Their derivatives along x and y, from which the level of detail comes. Without, it comes from
-    /// the differences within quads.
+    /// Their derivatives along x and y, from which the level of detail comes. Without, it comes
+    /// from the differences within quads.
     #[inline(always)]
     fn gradient(self) -> Option<[Vec3<R>; 2]> {
         None

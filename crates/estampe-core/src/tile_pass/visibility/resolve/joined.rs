@@ -1,15 +1,17 @@
 //! Packets whose lanes are shaded for different triangles, of shaders that need no quads.
 //!
 //! A packet of 4×4 pixels is shaded once for all triangles that it shows: each is interpolated in
-//! all lanes, and kept in its own. Where a pixel's samples show several triangles, further packets
-//! take those that are left. Nothing is shaded that is not shown.
+//! all lanes, and kept in its own. Nothing is shaded that is not shown.
 //!
 //! ```text
-//!    a a b b        a a b b
-//!    a a b b   ─▶   a a b b   one packet; with quads a, b and c take one packet of
-//!    a c c b        a c c b   quads each, in which 14 of 32 lanes are helpers
-//!    c c c c        c c c c
+//!    a a b b
+//!    a a b b   one packet; by quads, two of each triangle, with 8 of 24 lanes for helpers
+//!    a c c b
+//!    c c c c
 //! ```
+//!
+//! Only where a pixel has one sample: the samples of an edge that are left over would take another
+//! packet at each place, and quads of several places share theirs.
 
 use super::Resolver;
 use crate::fragment::queue::CAPACITY;

@@ -2,8 +2,8 @@
 //!
 //! A packet that shows one triangle is shaded whole. Of others each triangle's quads are shaded in
 //! packets that they share with those of other triangles and places; if fragments need no quads,
-//! each lane is shaded for the triangle that it shows (`joined.rs`). Draws that share a pipeline and
-//! bindings are shaded together, and those of one colour come first.
+//! each lane is shaded for the triangle that it shows (`joined.rs`). Draws that share a pipeline
+//! and bindings are shaded together, and those of one colour come first.
 
 mod early;
 mod groups;
