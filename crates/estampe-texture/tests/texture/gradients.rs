@@ -49,27 +49,19 @@ fn alone(texture: &SampledTexture, varying: &Varying, lane: usize) -> [f32; 4] {
 
 /// Neighbouring pixels of one triangle, or of several with levels of their own.
 fn varying(random: &mut Random) -> Varying {
-    let mut varying = [[0.0; LANES]; 6];
     let is_one = random.bits().is_multiple_of(2);
-    let mut from = || {
-        let scale = random.unit() * random.unit() * 0.2;
-        [0; 6].map(|_| (random.unit() - 0.5) * scale)
-    };
-    let mut of = from();
+    let scale = random.unit() * random.unit() * 0.2;
+    let mut of = [0; 6].map(|_| (random.unit() - 0.5) * scale);
     let place = [random.unit() * 1.2 - 0.1, random.unit() * 1.2 - 0.1];
-    for lane in 0..LANES {
+    let mut lanes = [[0.0; 6]; LANES];
+    for (lane, to) in lanes.iter_mut().enumerate() {
         if !is_one && lane % 4 == 0 {
-            let mut from = || (random.unit() - 0.5) * 0.2;
-            of = [0; 6].map(|_| from());
+            of = of.map(|_| (random.unit() - 0.5) * 0.2);
         }
-        for axis in 0..2 {
-            varying[axis][lane] = place[axis] + of[axis] * lane as f32 * 0.1;
-        }
-        for at in 2..6 {
-            varying[at][lane] = of[at];
-        }
+        let at = |axis: usize| place[axis] + of[axis] * lane as f32 * 0.1;
+        *to = [at(0), at(1), of[2], of[3], of[4], of[5]];
     }
-    varying
+    std::array::from_fn(|scalar| lanes.map(|of_lane| of_lane[scalar]))
 }
 
 #[test]
