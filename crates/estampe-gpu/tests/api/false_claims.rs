@@ -1,7 +1,8 @@
-//! A `Program` that claims to pass its colour through although it has no varyings.
+//! A `Program` that claims to pass its colour through although it has no varyings, or to read
+//! derivatives of varyings that it does not have.
 
 use crate::support::Images;
-use estampe::shader::{FragmentBatch, Interface, VertexBatch};
+use estampe::shader::{FragmentBatch, Interface, Interpolation, VertexBatch};
 use estampe::state::BlendState;
 use estampe::{
     Bindings, Device, DeviceDescriptor, Draw, Level, Program, RenderPipelineDescriptor, SampleType,
@@ -115,4 +116,38 @@ fn colors_have_the_type_of_their_targets() {
              other's type"
         )
     );
+}
+
+/// What a pipeline says of the scalars whose derivatives the fragments read, of two.
+fn said_of_gradients(gradients: &[usize]) -> Option<String> {
+    let device = Device::new(&DeviceDescriptor::default()).expect("the default");
+    let program = Claimant(Interface {
+        varyings: vec![Interpolation::Smooth; 2],
+        gradients: gradients.to_vec(),
+        color_targets: 1,
+        ..Interface::default()
+    });
+    let descriptor = RenderPipelineDescriptor::with_program(Arc::new(program));
+    let made = device.create_render_pipeline(&descriptor);
+    made.err().map(|error| error.to_string())
+}
+
+#[test]
+fn derivatives_are_those_of_varyings_that_exist() {
+    for gradients in [&[][..], &[0], &[1], &[0, 1]] {
+        assert_eq!(said_of_gradients(gradients), None, "{gradients:?}");
+    }
+    for (gradients, scalar) in [(&[2][..], 2), (&[0, usize::MAX], usize::MAX)] {
+        let said = said_of_gradients(gradients).expect("a varying that is missing");
+        assert_eq!(
+            said,
+            format!(
+                "the program reads the derivative of scalar {scalar} of its 2 scalars of varyings: \
+                 list scalars that exist, in ascending order"
+            )
+        );
+    }
+    for gradients in [[1, 0], [1, 1]] {
+        assert!(said_of_gradients(&gradients).is_some(), "{gradients:?}");
+    }
 }
