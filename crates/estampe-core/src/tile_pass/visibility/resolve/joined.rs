@@ -14,54 +14,30 @@
 //! packet at each place, and quads of several places share theirs.
 
 use super::Resolver;
-use crate::fragment::queue::CAPACITY;
 use crate::raster::Covered;
 use estampe_simd::Lanes;
 
-/// The slots of the queue that hold fragments of the packet at hand, and their lanes.
-#[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Slots {
-    slots: [(u8, u16); CAPACITY],
-    len: usize,
-}
-
 impl<const N: usize> Resolver<'_, '_, '_, N> {
-    /// Queues a triangle's part of a packet in slots of the same packet that have its lanes free,
-    /// then in a new one.
+    /// Queues a triangle's part of a packet: in the slot of the packet's other triangles, if there
+    /// is one, else in a new one. Their lanes are disjoint, as a pixel has one sample.
     #[inline(always)]
     pub(super) fn join<S: Lanes>(
         &mut self,
         s: S,
         id: u32,
         covered: &Covered<N>,
-        slots: &mut Slots,
+        slot: &mut Option<usize>,
     ) {
         let visible = self.visible(s, id);
-        let mut left = *covered;
-        for at in 0..slots.len {
-            let (slot, used) = slots.slots[at];
-            let mut part = left;
-            part.masks = part.masks.map(|mask| mask & !used);
-            let lanes = part.any();
-            if lanes == 0 {
-                continue;
-            }
-            slots.slots[at].1 |= lanes;
-            self.push(s, visible, &part, Some(usize::from(slot)));
+        if slot.is_some() {
+            self.push(s, visible, covered, *slot);
             self.scratch.statistics.packets_joined += 1;
-            left.masks = left.masks.map(|mask| mask & used);
-            if left.any() == 0 {
-                return;
-            }
+            return;
         }
         if self.scratch.queue.is_full() {
             self.flush();
-            slots.len = 0;
         }
-        self.push(s, visible, &left, None);
-        #[expect(clippy::cast_possible_truncation, reason = "below CAPACITY")]
-        let slot = self.scratch.queue.last_slot() as u8;
-        slots.slots[slots.len % CAPACITY] = (slot, left.any());
-        slots.len += 1;
+        self.push(s, visible, covered, None);
+        *slot = Some(self.scratch.queue.last_slot());
     }
 }

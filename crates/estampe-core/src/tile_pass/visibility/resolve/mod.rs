@@ -27,7 +27,6 @@ use crate::tile_pass::{TileJob, TilePass, TileScratch, write_colors};
 use early::write_cross_triangle;
 use estampe_simd::{LANES, Lanes, dispatch};
 use estampe_types::Interpolation;
-use joined::Slots;
 use per_draw::DrawTexels;
 use visible::VisibleTriangle;
 
@@ -214,7 +213,7 @@ impl<'a, 'j, 't, const N: usize> Resolver<'a, 'j, 't, N> {
                     Some(_) => continue,
                     None => self.take_unresolved(s, number, group),
                 };
-                let mut slots = Slots::default();
+                let mut slot = None;
                 while left != [0; N] {
                     let (id, covered) = match single {
                         Some(id) => (id, std::mem::replace(&mut left, [0; N])),
@@ -229,7 +228,7 @@ impl<'a, 'j, 't, const N: usize> Resolver<'a, 'j, 't, N> {
                     if per_primitive {
                         self.fill(s, id, &covered);
                     } else if joins {
-                        self.join(s, id, &covered, &mut slots);
+                        self.join(s, id, &covered, &mut slot);
                     } else {
                         self.queue(s, id, &covered);
                     }
