@@ -9,6 +9,7 @@ mod bounds;
 mod camera;
 mod hdr_image;
 mod image;
+mod in_order;
 mod light;
 mod material;
 mod mesh;

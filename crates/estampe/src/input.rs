@@ -4,10 +4,10 @@ use crate::failure::Failure;
 use crate::terminal::one_line;
 use crate::values::{FormatName, Source, shown};
 use estampe_assets::model::{
-    AnimationName, Folder, ModelChoices, ModelContents, ResourceError, Resources, TextureDetail,
-    parse_model_for,
+    AnimationName, Folder, ModelChoices, ModelContents, ModelSource, ResourceError, Resources,
+    SourceBytes, TextureDetail, read_model_for,
 };
-use estampe_assets::{AssetError, Limits, Loaded, ModelFormat, ModelInput, ModelOptions, Warning};
+use estampe_assets::{AssetError, Limits, Loaded, ModelFormat, ModelOptions, Warning};
 use estampe_assets::{read_bytes, read_stream};
 use estampe_scene::{Mesh, Scene};
 use estampe_shapes::BuiltinShape;
@@ -43,7 +43,7 @@ pub(crate) struct Model {
     pub(crate) warnings: Vec<Warning>,
     /// Number of all warnings.
     pub(crate) warning_count: u64,
-    /// Time to read the bytes.
+    /// Time to read the bytes, but for OBJ, which is read while it is parsed.
     pub(crate) read: Duration,
     /// Time to build a scene from the bytes, normals included.
     pub(crate) parse: Duration,
@@ -81,30 +81,34 @@ impl Model {
                 on_stage("parsing");
                 let resources = Noted::new(folder);
                 let model = Self::parsed(read, name, || {
-                    let input = ModelInput {
-                        bytes: &bytes,
-                        format,
-                        name,
-                        resources: &resources,
-                    };
-                    reading.parse(&input)
+                    let file = (SourceBytes::Memory(bytes), format);
+                    reading.parse(file, name, &resources)
                 })?;
                 let files = resources.read.into_inner();
                 Ok(Self { files, ..model })
             }
             Source::File(path) => {
-                let bytes = read_file(path, reading.limits)?;
+                let mut file;
+                let known = format.or_else(|| ModelFormat::from_extension(path));
+                let bytes = if known == Some(ModelFormat::Obj) {
+                    // It is read while it is parsed.
+                    let opened = open(path, reading.limits)?;
+                    file = opened.file;
+                    SourceBytes::Stream(&mut file, opened.len)
+                } else {
+                    SourceBytes::Memory(read_file(path, reading.limits)?)
+                };
                 let read = start.elapsed();
                 on_stage("parsing");
-                let model = Self::of_bytes((path, &bytes), format, reading, folder)?;
+                let model = Self::of_source((path, bytes), known, reading, folder)?;
                 Ok(Self { read, ..model })
             }
         }
     }
 
     /// The model of a file's bytes, whose other files are those of `resources`.
-    pub(crate) fn of_bytes(
-        (path, bytes): (&Path, &[u8]),
+    pub(crate) fn of_source(
+        (path, bytes): (&Path, SourceBytes<'_>),
         format: Option<ModelFormat>,
         reading: Reading<'_>,
         resources: &dyn Resources,
@@ -112,7 +116,10 @@ impl Model {
         let name = shown(path);
         let format = format
             .or_else(|| ModelFormat::from_extension(path))
-            .or_else(|| ModelFormat::from_content(bytes))
+            .or_else(|| match &bytes {
+                SourceBytes::Memory(bytes) => ModelFormat::from_content(bytes),
+                SourceBytes::Stream(..) => None,
+            })
             .ok_or_else(|| {
                 Failure::Input(format!(
                     "{name}: neither its extension nor its content is that of a model; glTF, \
@@ -122,13 +129,7 @@ impl Model {
         let resources = Noted::new(resources);
         resources.read.borrow_mut().push(path.to_owned());
         let model = Self::parsed(Duration::ZERO, &name, || {
-            let input = ModelInput {
-                bytes,
-                format,
-                name: &name,
-                resources: &resources,
-            };
-            reading.parse(&input)
+            reading.parse((bytes, format), &name, &resources)
         })?;
         let files = resources.read.into_inner();
         Ok(Self { files, ..model })
@@ -210,8 +211,23 @@ impl Model {
 }
 
 impl Reading<'_> {
-    fn parse(self, input: &ModelInput<'_>) -> Result<Loaded, AssetError> {
-        parse_model_for(input, self.options, self.limits, self.detail)
+    fn parse(
+        self,
+        (bytes, format): (SourceBytes<'_>, ModelFormat),
+        name: &str,
+        resources: &dyn Resources,
+    ) -> Result<Loaded, AssetError> {
+        let source = ModelSource {
+            // Made anew, because the resources live shorter than the stream.
+            bytes: match bytes {
+                SourceBytes::Memory(bytes) => SourceBytes::Memory(bytes),
+                SourceBytes::Stream(stream, len) => SourceBytes::Stream(stream, len),
+            },
+            format,
+            name,
+            resources,
+        };
+        read_model_for(source, self.options, self.limits, self.detail)
     }
 }
 
@@ -245,24 +261,38 @@ impl Resources for Noted<'_> {
     }
 }
 
-/// The bytes of a file that the user named, which may be a pipe; at most the limit.
-pub(crate) fn read_file(path: &Path, limits: &Limits) -> Result<Vec<u8>, Failure> {
-    let name = shown(path);
-    let advice = &advice_for(path);
-    let failed = |error: io::Error| unreadable(&name, &error, advice);
+/// A file that the user named, which may be a pipe.
+struct Opened {
+    file: File,
+    /// The length, if it is not a pipe.
+    len: Option<u64>,
+}
+
+/// Opens a file that is not larger than the limit.
+fn open(path: &Path, limits: &Limits) -> Result<Opened, Failure> {
+    let failed = |error: io::Error| unreadable(&shown(path), &error, &advice_for(path));
     let metadata = std::fs::metadata(path).map_err(failed)?;
     if metadata.is_dir() {
         return Err(Failure::Input(format!(
-            "{name}: this is a folder; name a file in it"
+            "{}: this is a folder; name a file in it",
+            shown(path)
         )));
     }
     if metadata.len() > limits.max_file_bytes {
-        return Err(too_large(&name, limits));
+        return Err(too_large(&shown(path), limits));
     }
-    let file = File::open(path).map_err(failed)?;
-    read_bytes(file, metadata.len(), limits).map_err(|error| match error.kind() {
-        io::ErrorKind::FileTooLarge => too_large(&name, limits),
-        _ => failed(error),
+    Ok(Opened {
+        file: File::open(path).map_err(failed)?,
+        len: metadata.is_file().then_some(metadata.len()),
+    })
+}
+
+/// The bytes of a file that the user named, which may be a pipe; at most the limit.
+pub(crate) fn read_file(path: &Path, limits: &Limits) -> Result<Vec<u8>, Failure> {
+    let Opened { file, len } = open(path, limits)?;
+    read_bytes(file, len.unwrap_or(0), limits).map_err(|error| match error.kind() {
+        io::ErrorKind::FileTooLarge => too_large(&shown(path), limits),
+        _ => unreadable(&shown(path), &error, &advice_for(path)),
     })
 }
 

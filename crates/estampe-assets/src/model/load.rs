@@ -7,10 +7,11 @@ use super::options::{ModelChoices, ModelOptions};
 use super::resources::{ResourceError, Resources};
 use super::{Folder, ModelFormat, finish, gltf, obj, off, ply, stl, threemf};
 use crate::warning::{Warning, Warnings};
-use crate::{AssetError, Limits, read_bytes};
+use crate::{AssetError, Limits, read_bytes, read_stream};
 use estampe_scene::{Scene, Workers};
 use glam::Vec3;
 use std::fs::File;
+use std::io::Read;
 use std::path::Path;
 
 /// A model with its warnings.
@@ -53,6 +54,44 @@ impl std::fmt::Debug for ModelInput<'_> {
     }
 }
 
+/// A model that is not kept in memory once it is parsed.
+pub struct ModelSource<'a> {
+    /// The file.
+    pub bytes: SourceBytes<'a>,
+    /// Its format.
+    pub format: ModelFormat,
+    /// Its name in messages.
+    pub name: &'a str,
+    /// The source of its side files.
+    pub resources: &'a dyn Resources,
+}
+
+impl std::fmt::Debug for ModelSource<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let Self { format, name, .. } = self;
+        write!(f, "ModelSource({name}, {format:?})")
+    }
+}
+
+/// The bytes of a [`ModelSource`].
+pub enum SourceBytes<'a> {
+    /// All bytes: they are dropped as soon as they are parsed.
+    Memory(Vec<u8>),
+    /// A stream of about so many bytes, if that is known. OBJ is parsed while it is read, and never
+    /// in memory as a whole; other formats are read first.
+    Stream(&'a mut (dyn Read + Send), Option<u64>),
+}
+
+impl std::fmt::Debug for SourceBytes<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Memory(bytes) => write!(f, "{} bytes", bytes.len()),
+            Self::Stream(_, Some(len)) => write!(f, "a stream of {len} bytes"),
+            Self::Stream(_, None) => f.write_str("a stream"),
+        }
+    }
+}
+
 /// Output of a format's reader, before the final steps.
 #[derive(Debug, Default)]
 pub(super) struct Parsed {
@@ -81,7 +120,25 @@ pub(super) struct Context<'a> {
     side_files_left: u64,
 }
 
-impl Context<'_> {
+impl<'a> Context<'a> {
+    pub(super) fn new(
+        name: &'a str,
+        resources: &'a dyn Resources,
+        options: &'a ModelOptions,
+        limits: &'a Limits,
+    ) -> Self {
+        Self {
+            name,
+            resources,
+            options,
+            limits,
+            warnings: Warnings::new(limits.max_warnings),
+            workers: Workers::new(limits.threads),
+            images: DeferredImages::new(limits),
+            side_files_left: limits.max_side_files,
+        }
+    }
+
     /// Finds the side file `name`; returns one name per file for all its spellings.
     pub(super) fn find_side_file(&mut self, name: &str) -> Result<String, ResourceError> {
         let Some(left) = self.side_files_left.checked_sub(1) else {
@@ -208,43 +265,120 @@ pub fn parse_model_for(
         name,
         resources,
     } = input;
+    check_choices(format, name, options)?;
     let text = decoded_text(format, bytes);
-    let mut context = Context {
+    let bytes = text.as_deref().unwrap_or(bytes);
+    let mut context = Context::new(name, resources, options, limits);
+    let parsed = check_length(bytes, limits)
+        .and_then(|()| match format {
+            ModelFormat::Gltf => gltf::parse(bytes, options, &mut context),
+            ModelFormat::ThreeMf => threemf::parse(bytes, &mut context),
+            _ => parse_geometry(bytes, format, &mut context),
+        })
+        .map_err(|error| error.in_file(name))?;
+    complete(parsed, format, context, detail)
+}
+
+/// [`parse_model_for`] of a model whose bytes nobody needs afterwards: that takes less memory, and
+/// less time.
+///
+/// # Errors
+/// As [`parse_model_with`], and `Io` if a stream cannot be read.
+pub fn read_model_for(
+    source: ModelSource<'_>,
+    options: &ModelOptions,
+    limits: &Limits,
+    detail: &dyn TextureDetail,
+) -> Result<Loaded, AssetError> {
+    let ModelSource {
+        bytes,
+        format,
         name,
         resources,
-        options,
-        limits,
-        warnings: Warnings::new(limits.max_warnings),
-        workers: Workers::new(limits.threads),
-        images: DeferredImages::new(limits),
-        side_files_left: limits.max_side_files,
+    } = source;
+    check_choices(format, name, options)?;
+    let bytes = match bytes {
+        SourceBytes::Stream(stream, _) if format != ModelFormat::Obj => {
+            let read = read_stream(stream, limits);
+            SourceBytes::Memory(read.map_err(|error| of_stream(&error, limits).in_file(name))?)
+        }
+        bytes => bytes,
     };
+    if let (SourceBytes::Memory(bytes), ModelFormat::Gltf | ModelFormat::ThreeMf) = (&bytes, format)
+    {
+        // Images stay in the bytes until they are decoded.
+        let input = ModelInput {
+            bytes,
+            format,
+            name,
+            resources,
+        };
+        return parse_model_for(&input, options, limits, detail);
+    }
+    let mut context = Context::new(name, resources, options, limits);
+    let parsed = match bytes {
+        SourceBytes::Memory(bytes) => {
+            let bytes = decoded_text(format, &bytes).unwrap_or(bytes);
+            check_length(&bytes, limits).and_then(|()| parse_geometry(&bytes, format, &mut context))
+        }
+        SourceBytes::Stream(stream, len) => {
+            obj::parse(obj::Text::Stream(stream, len), &mut context)
+        }
+    };
+    let parsed = parsed.map_err(|error| error.in_file(name))?;
+    complete(parsed, format, context, detail)
+}
+
+/// Refuses choices that the format does not offer.
+fn check_choices(
+    format: ModelFormat,
+    name: &str,
+    options: &ModelOptions,
+) -> Result<(), AssetError> {
     let gltf_choice = options.of_gltf_alone();
-    if let Some(choice) = gltf_choice.filter(|_| format != ModelFormat::Gltf) {
-        return Err(AssetError::unsupported(
+    match gltf_choice.filter(|_| format != ModelFormat::Gltf) {
+        None => Ok(()),
+        Some(choice) => Err(AssetError::unsupported(
             format!(
                 "{choice} is not in this file: {} has neither scenes, animations nor variants",
                 format.name()
             ),
             "read it without this choice",
         )
-        .in_file(name));
+        .in_file(name)),
     }
-    let bytes = text.as_deref().unwrap_or(bytes);
-    let parsed = Limits::check("bytes", bytes.len() as u64, limits.max_file_bytes)
-        .and_then(|()| match format {
-            ModelFormat::Gltf => gltf::parse(bytes, options, &mut context),
-            ModelFormat::Obj => obj::parse(bytes, &mut context),
-            ModelFormat::Stl => stl::parse(bytes, &mut context),
-            ModelFormat::Ply => ply::parse(bytes, &mut context),
-            ModelFormat::Off => off::parse(bytes, &mut context),
-            ModelFormat::ThreeMf => threemf::parse(bytes, &mut context),
-        })
-        .map_err(|error| error.in_file(name))?;
+}
+
+fn check_length(bytes: &[u8], limits: &Limits) -> Result<(), AssetError> {
+    Limits::check("bytes", bytes.len() as u64, limits.max_file_bytes)
+}
+
+/// Parses a format whose images are files of their own, so that nothing stays in the bytes.
+fn parse_geometry(
+    bytes: &[u8],
+    format: ModelFormat,
+    context: &mut Context<'_>,
+) -> Result<Parsed, AssetError> {
+    match format {
+        ModelFormat::Obj => obj::parse(obj::Text::Memory(bytes), context),
+        ModelFormat::Stl => stl::parse(bytes, context),
+        ModelFormat::Ply => ply::parse(bytes, context),
+        ModelFormat::Off => off::parse(bytes, context),
+        ModelFormat::Gltf | ModelFormat::ThreeMf => unreachable!("its images stay in the bytes"),
+    }
+}
+
+/// Makes normals, decodes images and collects warnings.
+fn complete(
+    parsed: Parsed,
+    format: ModelFormat,
+    mut context: Context<'_>,
+    detail: &dyn TextureDetail,
+) -> Result<Loaded, AssetError> {
     let mut parsed = finish::finish(parsed, &mut context);
     parsed.contents.image_sizes = decode_all(&mut parsed.scene, detail, &mut context);
     let (warnings, warning_count) = context.warnings.finish();
-    if options.is_strict
+    if context.options.is_strict
         && let Some(first) = warnings.first()
     {
         return Err(refused(first, warning_count));
@@ -281,8 +415,7 @@ fn refused(first: &Warning, count: u64) -> AssetError {
 
 /// The bytes of the model itself, up to the limit. The user named it, so it may be a pipe.
 fn read_file(path: &Path, limits: &Limits) -> Result<Vec<u8>, AssetError> {
-    let advice = "check the path and its permissions";
-    let failed = |error: std::io::Error| AssetError::io(error.to_string(), advice);
+    let failed = |error: std::io::Error| of_stream(&error, limits);
     let metadata = std::fs::metadata(path).map_err(failed)?;
     if metadata.is_dir() {
         return Err(AssetError::io(
@@ -292,16 +425,20 @@ fn read_file(path: &Path, limits: &Limits) -> Result<Vec<u8>, AssetError> {
     }
     Limits::check("bytes", metadata.len(), limits.max_file_bytes)?;
     let file = File::open(path).map_err(failed)?;
-    read_bytes(file, metadata.len(), limits).map_err(|error| match error.kind() {
+    read_bytes(file, metadata.len(), limits).map_err(failed)
+}
+
+/// The error of [`read_bytes`] and [`read_stream`].
+fn of_stream(error: &std::io::Error, limits: &Limits) -> AssetError {
+    let failed = || AssetError::io(error.to_string(), "check the path and its permissions");
+    match error.kind() {
         std::io::ErrorKind::FileTooLarge => {
             let more = limits.max_file_bytes.saturating_add(1);
-            match Limits::check("bytes", more, limits.max_file_bytes) {
-                Err(too_large) => too_large,
-                Ok(()) => failed(error),
-            }
+            let checked = Limits::check("bytes", more, limits.max_file_bytes);
+            checked.err().unwrap_or_else(failed)
         }
-        _ => failed(error),
-    })
+        _ => failed(),
+    }
 }
 
 /// The text of a file in UTF-16, in the formats that are text. What begins as UTF-16 may be a

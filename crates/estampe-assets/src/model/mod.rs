@@ -47,7 +47,8 @@ pub use deferred::{FullDetail, LeastDetail, TextureDetail};
 pub use detect::ModelFormat;
 pub use folder::Folder;
 pub use load::{
-    Loaded, ModelInput, load_model, load_model_with, parse_model, parse_model_for, parse_model_with,
+    Loaded, ModelInput, ModelSource, SourceBytes, load_model, load_model_with, parse_model,
+    parse_model_for, parse_model_with, read_model_for,
 };
 pub use normals::NormalMode;
 pub use options::{AnimationClip, AnimationName, ModelChoices, ModelOptions, TextureAlpha};

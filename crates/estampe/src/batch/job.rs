@@ -14,6 +14,7 @@ use crate::render::{
 use crate::values::{Destination, shown};
 use estampe::Device;
 use estampe_assets::Limits;
+use estampe_assets::model::SourceBytes;
 use estampe_renderer::ViewDirection;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -118,8 +119,8 @@ impl Shared {
         let pictures = { job.pictures.iter() }
             .map(|picture| (arguments(job, picture), picture.shot.camera.clone()))
             .collect();
-        let model = Model::of_bytes(
-            (&job.input.path, &bytes),
+        let model = Model::of_source(
+            (&job.input.path, SourceBytes::Memory(bytes)),
             args.format.map(estampe_assets::ModelFormat::from),
             Reading {
                 options: &chosen,

@@ -44,7 +44,7 @@ With --json one object is written to standard output, or to standard error with 
 camera, counts {meshes, vertices, triangles, lines, points, materials, textures}, pipeline {vertices_shaded, primitives_in, \
 primitives_clipped, primitives_culled, primitives_binned, fragments_shaded}, timings_ms {read, parse, \
 texture, device, prepare, geometry, raster, read_back, encode, write, total}, warnings [text], \
-warning_count. The time of parse includes the computation of missing normals. \
+warning_count. The time of parse includes the computation of missing normals, and of OBJ files the reading. \
 With --pass it is: model, width, height, depth_unit (of PNG), outputs [{path, passes, bytes}], camera with pinhole {K, R, t} (x right, \
 y down, z forward, in pixels), counts, objects [name], materials [name], milliseconds, warnings [text]. With --cameras it has cameras [{name, width, height, pinhole, outputs [{path, bytes}]}] in \
 place of size, outputs and camera. An error gives \

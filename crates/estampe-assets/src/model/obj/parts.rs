@@ -1,6 +1,7 @@
 //! Objects, groups and materials of the elements.
 
 use std::collections::HashMap;
+use std::sync::Arc;
 
 /// Object, group and material of a run of elements, as indices of names.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -15,10 +16,10 @@ pub(super) struct Part {
 
 /// The parts of a file, numbered in the order of their first element.
 #[derive(Debug)]
-pub(super) struct Parts<'a> {
-    pub(super) objects: Names<'a>,
-    pub(super) groups: Names<'a>,
-    pub(super) materials: Names<'a>,
+pub(super) struct Parts {
+    pub(super) objects: Names,
+    pub(super) groups: Names,
+    pub(super) materials: Names,
     /// The parts by number.
     pub(super) list: Vec<Part>,
     numbers: HashMap<Part, u32>,
@@ -27,25 +28,27 @@ pub(super) struct Parts<'a> {
     current_number: Option<u32>,
 }
 
-/// Distinct names, numbered in the order of their first use. Number 0 is the absent name.
+/// Distinct names, numbered in the order of their first use. Number 0 is the absent name. They are
+/// copies, because the text is not kept.
 #[derive(Debug)]
-pub(super) struct Names<'a> {
-    pub(super) list: Vec<&'a [u8]>,
-    numbers: HashMap<&'a [u8], u32>,
+pub(super) struct Names {
+    pub(super) list: Vec<Arc<[u8]>>,
+    numbers: HashMap<Arc<[u8]>, u32>,
     max_count: u64,
 }
 
-impl<'a> Names<'a> {
+impl Names {
     fn new(max_count: u64) -> Self {
+        let absent: Arc<[u8]> = Arc::default();
         Self {
-            list: vec![b""],
-            numbers: HashMap::from([(&b""[..], 0)]),
+            list: vec![Arc::clone(&absent)],
+            numbers: HashMap::from([(absent, 0)]),
             max_count,
         }
     }
 
     /// The number of `name`; beyond the limit, the last number.
-    fn number(&mut self, name: &'a [u8]) -> u32 {
+    fn number(&mut self, name: &[u8]) -> u32 {
         if let Some(&number) = self.numbers.get(name) {
             return number;
         }
@@ -53,13 +56,14 @@ impl<'a> Names<'a> {
         if u64::from(count) > self.max_count {
             return count - 1;
         }
-        self.list.push(name);
+        let name: Arc<[u8]> = name.into();
+        self.list.push(Arc::clone(&name));
         self.numbers.insert(name, count);
         count
     }
 }
 
-impl<'a> Parts<'a> {
+impl Parts {
     pub(super) fn new(max_meshes: u64, max_materials: u64) -> Self {
         Self {
             objects: Names::new(max_meshes),
@@ -76,18 +80,18 @@ impl<'a> Parts<'a> {
         }
     }
 
-    pub(super) fn enter_object(&mut self, name: &'a [u8]) {
+    pub(super) fn enter_object(&mut self, name: &[u8]) {
         self.current.object = self.objects.number(name);
         self.current_number = None;
     }
 
-    pub(super) fn enter_group(&mut self, name: &'a [u8]) {
+    pub(super) fn enter_group(&mut self, name: &[u8]) {
         self.current.group = self.groups.number(name);
         self.current_number = None;
     }
 
     /// Sets the material; returns true if its name is new.
-    pub(super) fn use_material(&mut self, name: &'a [u8]) -> bool {
+    pub(super) fn use_material(&mut self, name: &[u8]) -> bool {
         let before = self.materials.list.len();
         self.current.material = self.materials.number(name);
         self.current_number = None;

@@ -2,20 +2,17 @@
 //!
 //! Nearly all lines of a large file have four forms: `v x y z`, `vt u v`, `vn x y z`, and `f` with
 //! three corners of indices from 1. Their meaning does not depend on the lines before them, so
-//! threads read runs of them; any other line, and any irregularity, ends a run. The reader
+//! threads read runs of them, window by window; any other line, and any irregularity, ends a run. The reader
 //! processes the statements in order. At the start of a run it takes the whole run at once, if the
 //! run's faces refer to existing vertices and the limits allow it. Otherwise it reads the lines
 //! itself. Errors, warnings and the order of elements are therefore decided by the reader alone.
 
 use super::elements::{ABSENT, Counts, push_attribute};
 use super::reader::Contents;
-use crate::model::number::parse_i64;
+use crate::model::number::{leading_digits, parse_f32, parse_i64, parse_usual_f32};
 use crate::model::statements::Statements;
-use estampe_scene::{Workers, pieces};
 use glam::{Vec2, Vec3};
 
-/// Bytes of a piece: a millisecond of work.
-const PIECE: usize = 1 << 20;
 /// Shorter runs cost more than they save.
 const LEAST_LINES: u64 = 256;
 
@@ -39,28 +36,19 @@ pub(super) struct Run {
     needed: Counts,
 }
 
-/// The runs of a file, in order.
-pub(super) fn runs(bytes: &[u8], workers: Workers) -> Vec<Run> {
-    if bytes.len() < PIECE {
-        return Vec::new();
-    }
-    let of_pieces = workers.map(pieces(bytes.len(), PIECE), |range| {
-        let mut runs = Vec::new();
-        // A piece has the lines that start in it.
-        let mut at = match range.start.checked_sub(1) {
-            None => 0,
-            Some(before) => next_line(bytes, before),
-        };
-        while at < range.end {
-            let (run, next) = Run::read(bytes, at, range.end);
-            if run.line_ends >= LEAST_LINES {
-                runs.push(run);
-            }
-            at = next_line(bytes, next);
+/// Reads the runs of a window in order; memory of `spare` runs is used again.
+pub(super) fn read_runs(bytes: &[u8], runs: &mut Vec<Run>, spare: &mut Vec<Run>) {
+    let mut at = 0;
+    while at < bytes.len() {
+        let mut run = spare.pop().unwrap_or_default();
+        let next = run.read(bytes, at);
+        at = next_line(bytes, next);
+        if run.line_ends >= LEAST_LINES {
+            runs.push(run);
+        } else {
+            spare.push(run);
         }
-        runs
-    });
-    of_pieces.into_iter().flatten().collect()
+    }
 }
 
 /// The start of the line after the one that `at` is in.
@@ -73,30 +61,85 @@ fn next_line(bytes: &[u8], at: usize) -> usize {
 }
 
 impl Run {
-    /// The run from the line at `start` up to the first line that is not plain or starts at `limit`
-    /// or later; also returns the start of that line.
-    fn read(bytes: &[u8], start: usize, limit: usize) -> (Self, usize) {
-        let mut run = Self {
-            start,
-            end: start,
-            ..Self::default()
-        };
-        let mut statements = Statements::starting_at(bytes, start, 0);
+    /// Reads a run from the line at `start` up to the first line that is not plain; returns the
+    /// start of that line.
+    fn read(&mut self, bytes: &[u8], start: usize) -> usize {
+        self.clear();
+        (self.start, self.end) = (start, start);
         let mut next = start;
-        while next < limit {
-            let line = statements.line();
-            if run.read_line(&mut statements).is_none() {
-                break;
+        // The lines before `next`.
+        let mut lines = 0;
+        while next < bytes.len() {
+            if let Some(length) = self.read_usual_line(&bytes[next..]) {
+                self.end = next + length;
+                self.line_ends = lines;
+                next = self.end + 1;
+            } else {
+                let mut statements = Statements::starting_at(bytes, next, lines);
+                if self.read_line(&mut statements).is_none() {
+                    break;
+                }
+                self.end = statements.at();
+                self.line_ends = lines;
+                if !statements.take_line_feed() {
+                    return bytes.len();
+                }
+                next = statements.at();
             }
-            run.end = statements.at();
-            run.line_ends = line;
-            if !statements.take_line_feed() {
-                next = bytes.len();
-                break;
-            }
-            next = statements.at();
+            lines += 1;
         }
-        (run, next)
+        next
+    }
+
+    /// Forgets the contents and keeps the memory.
+    fn clear(&mut self) {
+        self.line_ends = 0;
+        self.positions.clear();
+        self.uvs.clear();
+        self.normals.clear();
+        self.triangles.clear();
+        self.triangle_uvs.clear();
+        self.triangle_normals.clear();
+        self.needed = [0; 3];
+    }
+
+    /// Reads a plain line as nearly all programs write it: with spaces between words alone. Returns
+    /// the place of its line feed; `None`, with the run unchanged, if it is any other line.
+    #[inline]
+    fn read_usual_line(&mut self, text: &[u8]) -> Option<usize> {
+        match *text.first_chunk()? {
+            [b'v', b' ', _] => {
+                let (position, end) = usual_numbers(text, 2)?;
+                let position = Vec3::from_array(position);
+                // Other values need a warning.
+                position
+                    .is_finite()
+                    .then(|| self.positions.push(position))?;
+                Some(end)
+            }
+            [b'v', b't', b' '] => {
+                let (uv, end) = usual_numbers(text, 3)?;
+                self.uvs.push(Vec2::from_array(uv));
+                Some(end)
+            }
+            [b'v', b'n', b' '] => {
+                let (normal, end) = usual_numbers(text, 3)?;
+                self.normals.push(Vec3::from_array(normal));
+                Some(end)
+            }
+            [b'f', b' ', _] => {
+                let mut corners = [[ABSENT; 3]; 3];
+                let mut at = 1;
+                for corner in &mut corners {
+                    at = skip_spaces(text, at)?;
+                    at = usual_corner(text, at, corner)?;
+                }
+                let end = usual_end(text, at)?;
+                self.keep_triangle(corners);
+                Some(end)
+            }
+            _ => None,
+        }
     }
 
     /// Reads a plain line up to its end; leaves the run unchanged if the line is not plain.
@@ -138,6 +181,12 @@ impl Run {
         if !ends(statements, line) {
             return None;
         }
+        self.keep_triangle(corners);
+        Some(())
+    }
+
+    #[inline]
+    fn keep_triangle(&mut self, corners: [[u32; 3]; 3]) {
         let [positions, uvs, normals] =
             [0, 1, 2].map(|attribute| corners.map(|corner: [u32; 3]| corner[attribute]));
         let known = [self.positions.len(), self.uvs.len(), self.normals.len()];
@@ -147,15 +196,15 @@ impl Run {
             .zip(known)
             .zip([positions, uvs, normals])
         {
-            for index in indices.into_iter().filter(|&index| index != ABSENT) {
-                *needed = (*needed).max((index as usize + 1).saturating_sub(known));
-            }
+            // An absent index becomes 0.
+            let [a, b, c] = indices.map(|index| index.wrapping_add(1));
+            let count = a.max(b).max(c) as usize;
+            *needed = (*needed).max(count.saturating_sub(known));
         }
         let before = self.triangles.len();
         self.triangles.push(positions);
         push_attribute(&mut self.triangle_uvs, before, uvs);
         push_attribute(&mut self.triangle_normals, before, normals);
-        Some(())
     }
 
     /// True if taking the run after `contents` gives the same result as reading it line by line.
@@ -169,7 +218,7 @@ impl Run {
     }
 }
 
-impl Contents<'_> {
+impl Contents {
     /// Appends a run's vertices.
     pub(super) fn append_vertices(&mut self, run: &Run) {
         self.positions.extend_from_slice(&run.positions);
@@ -179,21 +228,68 @@ impl Contents<'_> {
             self.colors.resize(self.positions.len(), Vec3::ONE);
         }
     }
+}
 
-    /// Reserves memory for all runs at once: they are most of the file, or few.
-    pub(super) fn reserve(&mut self, runs: &[Run]) {
-        let sum = |count: fn(&Run) -> usize| runs.iter().map(count).sum();
-        self.positions.reserve_exact(sum(|run| run.positions.len()));
-        self.uvs.reserve_exact(sum(|run| run.uvs.len()));
-        self.normals.reserve_exact(sum(|run| run.normals.len()));
-        let elements = &mut self.elements;
-        let triangles = &mut elements.triangles;
-        triangles.reserve_exact(sum(|run| run.triangles.len()));
-        let uvs = sum(|run| run.triangle_uvs.len());
-        elements.triangle_uvs.reserve_exact(uvs);
-        let normals = sum(|run| run.triangle_normals.len());
-        elements.triangle_normals.reserve_exact(normals);
+/// The place after the spaces at `at`, of which there is at least one.
+#[inline]
+fn skip_spaces(text: &[u8], mut at: usize) -> Option<usize> {
+    if text.get(at) != Some(&b' ') {
+        return None;
     }
+    while text.get(at) == Some(&b' ') {
+        at += 1;
+    }
+    Some(at)
+}
+
+/// The place of the line feed that ends a line at `at`.
+#[inline]
+fn usual_end(text: &[u8], mut at: usize) -> Option<usize> {
+    while text.get(at) == Some(&b' ') {
+        at += 1;
+    }
+    at += usize::from(text.get(at) == Some(&b'\r'));
+    (text.get(at) == Some(&b'\n')).then_some(at)
+}
+
+/// The numbers of a line after its keyword, exactly `N` of them, and the place of the line feed.
+#[inline]
+fn usual_numbers<const N: usize>(text: &[u8], keyword: usize) -> Option<([f32; N], usize)> {
+    let mut numbers = [0.0; N];
+    let mut at = keyword - 1;
+    for slot in &mut numbers {
+        at = skip_spaces(text, at)?;
+        let number = text.get(at..)?;
+        let (value, length) = parse_usual_f32(number).or_else(|| parse_f32(number))?;
+        *slot = value;
+        at += length;
+    }
+    Some((numbers, usual_end(text, at)?))
+}
+
+/// Reads a corner as [`plain_corner`] does, with indices of at most seven digits; returns the place
+/// after it.
+#[inline]
+fn usual_corner(text: &[u8], mut at: usize, indices: &mut [u32; 3]) -> Option<usize> {
+    for (attribute, slot) in indices.iter_mut().enumerate() {
+        if attribute > 0 {
+            if text.get(at) != Some(&b'/') {
+                break;
+            }
+            at += 1;
+            if attribute == 1 && text.get(at) == Some(&b'/') {
+                continue;
+            }
+        }
+        let (index, length) = leading_digits(text.get(at..)?)?;
+        // Eight digits may be followed by more. 0 depends on earlier lines.
+        if length == 8 {
+            return None;
+        }
+        *slot = u32::try_from(index).ok()?.checked_sub(1)?;
+        at += length;
+    }
+    Some(at)
 }
 
 /// True if the statement ends here, without a comment, in the line in which it began.

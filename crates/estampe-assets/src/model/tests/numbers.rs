@@ -1,6 +1,6 @@
 //! Numbers are rounded as by the standard library.
 
-use crate::model::number::{parse_f32, parse_i64};
+use crate::model::number::{leading_digits, parse_f32, parse_i64, parse_usual_f32};
 use crate::model::srgb::{linear_from_srgb, linear_from_srgb8};
 use fastrand::Rng;
 
@@ -13,6 +13,69 @@ fn assert_as_standard(text: &str) {
         expected.to_bits(),
         "{text}: {value:e}, not {expected:e}"
     );
+    // What follows the number makes no difference.
+    for rest in [" 12345678", "\n", "/3456789012345", "x1234567"] {
+        let longer = format!("{text}{rest}");
+        assert_eq!(
+            parse_f32(longer.as_bytes()).map(|(value, length)| (value.to_bits(), length)),
+            Some((value.to_bits(), length)),
+            "{longer}"
+        );
+        if let Some((usual, at)) = parse_usual_f32(longer.as_bytes())
+            && at == length
+        {
+            assert_eq!(usual.to_bits(), expected.to_bits(), "{longer}");
+        }
+    }
+}
+
+#[test]
+fn usual_numbers_are_read_at_once() {
+    for (text, value, length) in [
+        ("1.500000 0.1", 1.5, 8),
+        ("-0.25\n0123456", -0.25, 5),
+        ("0 000000000", 0.0, 1),
+        ("-0.000000 9999", -0.0, 9),
+        ("9999999.9999999 12", 9_999_999.9999999, 15),
+        ("12. 345678901", 12.0, 3),
+    ] {
+        let (found, at) = parse_usual_f32(text.as_bytes()).unwrap_or_else(|| panic!("{text}"));
+        assert_eq!(
+            (found.to_bits(), at),
+            (f32::to_bits(value), length),
+            "{text}"
+        );
+    }
+    for text in [
+        "",
+        "-",
+        ".5 1234567",
+        "12345678 123456789",
+        "1.12345678 1234567",
+        "1",
+        "+1 23456789",
+    ] {
+        assert_eq!(parse_usual_f32(text.as_bytes()), None, "{text}");
+    }
+}
+
+#[test]
+fn leading_digits_end_at_any_other_byte() {
+    for other in (0..=255).filter(|byte: &u8| !byte.is_ascii_digit()) {
+        for count in 0..8 {
+            let mut text = *b"98765432";
+            text[count..].fill(other);
+            let value = (0..count).fold(0, |value, at| value * 10 + u64::from(text[at] - b'0'));
+            assert_eq!(leading_digits(&text), Some((value, count)), "{text:?}");
+            // Digits after it are not read.
+            if count < 7 {
+                text[count + 1..].fill(b'7');
+                assert_eq!(leading_digits(&text), Some((value, count)), "{text:?}");
+            }
+        }
+    }
+    assert_eq!(leading_digits(b"00120034x"), Some((120_034, 8)));
+    assert_eq!(leading_digits(b"1234567"), None);
 }
 
 #[test]
