@@ -154,8 +154,9 @@ impl CornerNormals {
 
 /// The normalised sum of the weighted normals around each point.
 ///
-/// Each thread has a range of points and reads all triangles for it, so sums are in the order of
-/// the triangles for any number of threads.
+/// Each thread has a range of points and reads the triangles for it, so sums are in the order of the
+/// triangles for any number of threads. It leaves out pieces without points of its range, which are
+/// most in meshes whose neighbouring triangles have neighbouring points.
 fn smooth_normals(
     triangles: &[[u32; 3]],
     point_count: usize,
@@ -168,14 +169,25 @@ fn smooth_normals(
         workers.count()
     };
     let range = point_count.div_ceil(ranges).max(1);
+    let extremes = workers.map(triangles.chunks(PIECE), |triangles| {
+        let extend =
+            |[least, greatest]: [u32; 2], &point: &u32| [least.min(point), greatest.max(point)];
+        triangles.as_flattened().iter().fold([u32::MAX, 0], extend)
+    });
     let mut sums = vec![[0.0; 3]; point_count];
     workers.map(sums.chunks_mut(range).enumerate(), |(index, sums)| {
         let first = index * range;
-        for (triangle, face) in triangles.iter().zip(faces.iter()) {
-            for &point in triangle {
-                // A point before the first wraps around to an index beyond the last.
-                if let Some(sum) = sums.get_mut((point as usize).wrapping_sub(first)) {
-                    *sum = (Vec3::from_array(*sum) + face.weighted()).to_array();
+        let pieces = triangles.chunks(PIECE).zip(&extremes).enumerate();
+        for (piece, (triangles, &[least, greatest])) in pieces {
+            if (greatest as usize) < first || least as usize >= first + sums.len() {
+                continue;
+            }
+            for (triangle, face) in triangles.iter().zip(faces.starting_at(piece * PIECE)) {
+                for &point in triangle {
+                    // A point before the first wraps around to an index beyond the last.
+                    if let Some(sum) = sums.get_mut((point as usize).wrapping_sub(first)) {
+                        *sum = (Vec3::from_array(*sum) + face.weighted()).to_array();
+                    }
                 }
             }
         }

@@ -320,10 +320,13 @@ impl<const BIG: bool> Values for Binary<'_, BIG> {
         vertex_count: usize,
         workers: Workers,
     ) -> Vec<[u32; 3]> {
-        let index = if BIG {
-            u32::from_be_bytes
-        } else {
-            u32::from_le_bytes
+        // A closure, not a pointer to a function, which would be called for each index.
+        let index = |bytes| {
+            if BIG {
+                u32::from_be_bytes(bytes)
+            } else {
+                u32::from_le_bytes(bytes)
+            }
         };
         let rest = self.bytes.get(self.at..).unwrap_or(&[]);
         let triangles = triangle_rows::read(rest, count, vertex_count, index, workers);

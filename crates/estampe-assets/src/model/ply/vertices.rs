@@ -89,6 +89,12 @@ impl Plan {
         bytes.sum::<Option<usize>>().filter(|&bytes| bytes > 0)
     }
 
+    /// True if rows are a position of three floats and nothing else, as in most scans.
+    fn is_floats_of_position(&self) -> bool {
+        let steps = [0, 1, 2].map(|slot| (Kind::One(Scalar::F32), slot));
+        self.steps == steps
+    }
+
     #[inline]
     fn read_row<V: Values>(
         &self,
@@ -179,6 +185,15 @@ fn read_at_once<V: Values>(plan: &Plan, readers: Vec<V>, mesh: &mut Mesh, worker
     workers.map(
         parts,
         |(mut reader, (((positions, normals), uvs), colors))| {
+            if plan.is_floats_of_position() {
+                for slot in positions.as_flattened_mut() {
+                    let Ok(value) = reader.next(Scalar::F32) else {
+                        unreachable!("all rows are there and have the length of their values");
+                    };
+                    *slot = narrow(value);
+                }
+                return;
+            }
             let mut row = [0.0; NOWHERE + 1];
             for (index, position) in positions.iter_mut().enumerate() {
                 if plan.read_row(&mut reader, &mut row).is_err() {
