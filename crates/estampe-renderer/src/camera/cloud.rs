@@ -36,9 +36,9 @@ impl Cloud {
         self.pieces.iter().flatten()
     }
 
-    /// The threads that may process the points.
-    pub(super) fn workers(&self) -> Workers {
-        self.workers
+    /// Calls a function for each piece, on several threads; the results are in order.
+    pub(super) fn map_pieces<R: Send>(&self, of_piece: impl Fn(&[DVec3]) -> R + Sync) -> Vec<R> {
+        self.workers.map(&self.pieces, |piece| of_piece(piece))
     }
 
     /// Replaces each point.

@@ -16,6 +16,7 @@
 //! frame.
 
 use super::Cloud;
+use super::centred::centred;
 use glam::DVec3;
 
 /// Tangents of half the opening angles, less the margin; for orthographic views the half extents
@@ -68,10 +69,8 @@ pub fn perspective_eye(points: &Cloud, k: FrameTangents, through: Option<DVec3>)
         .max((c + d) / (2.0 * k.y))
         .max(front + CLOSEST);
     let z = at_least_a_step(z, front, points);
-    let (x, y) = points.workers().join(
-        || centred(points, z, (a - b) / 2.0, |p| p.x),
-        || centred(points, z, (c - d) / 2.0, |p| p.y),
-    );
+    let x = centred(points, z, (a - b) / 2.0, |p| p.x);
+    let y = centred(points, z, (c - d) / 2.0, |p| p.y);
     DVec3::new(x, y, z)
 }
 
@@ -85,32 +84,6 @@ fn at_least_a_step(z: f64, front: f64, points: &Cloud) -> f64 {
     } else {
         z
     }
-}
-
-/// The coordinate of the eye at which the points have equal projected extent on both sides: max (p
-/// − e)/(z − p_z) = max (e − p)/(z − p_z), by Newton's method on its linear pieces.
-fn centred(points: &Cloud, eye_z: f64, start: f64, coordinate: impl Fn(&DVec3) -> f64) -> f64 {
-    const MOST_STEPS: usize = 16;
-    let mut eye = start;
-    for _ in 0..MOST_STEPS {
-        let mut furthest = [(f64::NEG_INFINITY, 0.0, 1.0); 2];
-        for p in points.iter() {
-            let (at, depth) = (coordinate(p), eye_z - p.z);
-            let reach = (at - eye) / depth;
-            if reach > furthest[0].0 {
-                furthest[0] = (reach, at, depth);
-            }
-            if -reach > furthest[1].0 {
-                furthest[1] = (-reach, at, depth);
-            }
-        }
-        let [(right, p, depth_p), (left, q, depth_q)] = furthest;
-        if (right - left).abs() <= 1e-12 * (1.0 + right.abs()) {
-            break;
-        }
-        eye = (p * depth_q + q * depth_p) / (depth_p + depth_q);
-    }
-    eye
 }
 
 /// The middle (its z is that of the nearest point) and the half height of the smallest orthographic

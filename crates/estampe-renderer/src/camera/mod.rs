@@ -6,6 +6,7 @@
 //! * [`pinhole`]: cameras as computer vision writes them, K, R and t;
 //! * [`placement`]: a camera from the caller's options, with near and far planes.
 
+mod centred;
 pub mod cloud;
 pub mod direction;
 pub mod fit;
