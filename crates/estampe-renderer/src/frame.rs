@@ -28,6 +28,7 @@ use estampe::{
 };
 use estampe_scene::{Camera, Image, Scene, Workers};
 use estampe_transparency::{Finder, TransparencyError};
+use std::borrow::Cow;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -184,6 +185,29 @@ pub fn render_watched(
     device: &Device,
     on_stage: &(dyn Fn(FrameStage) + Sync),
 ) -> Result<Frame, RenderError> {
+    render_display(Cow::Borrowed(scene), options, device, on_stage)
+}
+
+/// [`render_watched`] of a scene that nobody needs afterwards: large arrays of its meshes become
+/// buffers without a copy, which saves memory and time.
+///
+/// # Errors
+/// As [`render`].
+pub fn render_spent(
+    scene: Scene,
+    options: &RenderOptions,
+    device: &Device,
+    on_stage: &(dyn Fn(FrameStage) + Sync),
+) -> Result<Frame, RenderError> {
+    render_display(Cow::Owned(scene), options, device, on_stage)
+}
+
+fn render_display(
+    scene: Cow<'_, Scene>,
+    options: &RenderOptions,
+    device: &Device,
+    on_stage: OnStage<'_>,
+) -> Result<Frame, RenderError> {
     let to = (device, FrameOutput::Display);
     draw(scene, options, to, on_stage, |mut rgba, view| {
         if options.background.is_none() {
@@ -212,7 +236,7 @@ pub fn render_light(
     device: &Device,
 ) -> Result<Frame<LightImage>, RenderError> {
     let to = (device, FrameOutput::Light);
-    draw(scene, options, to, &|_| {}, |bytes, view| {
+    draw(Cow::Borrowed(scene), options, to, &|_| {}, |bytes, view| {
         let size = (options.width, options.height);
         let mut image = LightImage::of_bytes(size, &bytes, options.background.is_some());
         let mut marked = MarkedLight(&mut image, encoding(options));
@@ -223,7 +247,7 @@ pub fn render_light(
 
 /// Draws a scene, and makes an image of the bytes of the target.
 fn draw<P>(
-    scene: &Scene,
+    scene: Cow<'_, Scene>,
     options: &RenderOptions,
     (device, output): (&Device, FrameOutput),
     on_stage: OnStage<'_>,
@@ -256,7 +280,7 @@ fn draw<P>(
 
 /// Prepares all that a frame needs, and lets `use_passes` use its passes and its view.
 pub(crate) fn with_passes<T>(
-    scene: &Scene,
+    scene: Cow<'_, Scene>,
     options: &RenderOptions,
     (device, output): (&Device, FrameOutput),
     on_stage: OnStage<'_>,
@@ -267,7 +291,7 @@ pub(crate) fn with_passes<T>(
     let resolved;
     let options = if options.shading == Shading::Automatic {
         resolved = RenderOptions {
-            shading: options.shading.of_scene(scene),
+            shading: options.shading.of_scene(&scene),
             ..options.clone()
         };
         &resolved
@@ -275,12 +299,14 @@ pub(crate) fn with_passes<T>(
         options
     };
     let workers = Workers::new(device.threads());
-    let cut = options.cut(scene, workers)?;
-    let scene = cut.as_ref().map_or(scene, |cut| &cut.scene);
-    let view = SceneView::new(scene, options, workers);
+    let mut scene = match options.cut(&scene, workers)? {
+        Some(cut) => Cow::Owned(cut.scene),
+        None => scene,
+    };
+    let view = SceneView::new(&scene, options, workers);
     let with_edges;
     let is_flat = options.edges_of_flat_views && options.edges.is_none();
-    let options = if is_flat && is_one_face(scene, &view, options, workers) {
+    let options = if is_flat && is_one_face(&scene, &view, options, workers) {
         with_edges = RenderOptions {
             edges: Some(FeatureEdges::default()),
             ..options.clone()
@@ -289,9 +315,17 @@ pub(crate) fn with_passes<T>(
     } else {
         options
     };
-    let style = frame_style(scene, &view, options, (device, output))?;
+    let style = frame_style(&scene, &view, options, (device, output))?;
+    let meshes = match &mut scene {
+        Cow::Borrowed(scene) => scene.meshes.iter().map(Cow::Borrowed).collect(),
+        Cow::Owned(scene) => {
+            let meshes = std::mem::take(&mut scene.meshes).into_iter();
+            meshes.map(Cow::Owned).collect()
+        }
+    };
     let plan = Planner {
-        scene,
+        scene: &scene,
+        meshes,
         options,
         view: &view,
         style: &style,

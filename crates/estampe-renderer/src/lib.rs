@@ -83,7 +83,7 @@ pub use estampe::state::CullMode;
 pub use estampe::transforms;
 pub use feature_edges::FeatureEdges;
 pub use frame::{Frame, FrameStage, FrameTimings, RenderError, TransparentLayers};
-pub use frame::{render, render_light, render_watched};
+pub use frame::{render, render_light, render_spent, render_watched};
 pub use geometry::face_colors::face_color;
 pub use gradient::{Gradient, GradientShape};
 pub use guides::BoundingBox;

@@ -82,12 +82,16 @@ impl<'a> Materials<'a> {
     /// The textures of all surfaces, which can be [created](Self::create) by several threads: the
     /// index of each image with its texels, the largest images first. None if there is one thread:
     /// a texture is created as fast when it is first needed.
-    pub(crate) fn missing_textures(&self, workers: Workers) -> Vec<TextureKey> {
+    pub(crate) fn missing_textures<'m>(
+        &self,
+        meshes: impl Iterator<Item = &'m Mesh>,
+        workers: Workers,
+    ) -> Vec<TextureKey> {
         let scene = self.scene;
         if workers.count() < 2 {
             return Vec::new();
         }
-        let with_uvs = scene.meshes.iter().filter(|mesh| !mesh.uvs.is_empty());
+        let with_uvs = meshes.filter(|mesh| !mesh.uvs.is_empty());
         let used = with_uvs.flat_map(|mesh| &mesh.surfaces);
         let used: BTreeSet<usize> = used.filter_map(|surface| surface.material).collect();
         let materials = used.into_iter().filter_map(|at| scene.materials.get(at));

@@ -10,6 +10,7 @@ use crate::scene_view::SceneView;
 use estampe::{Device, PassStages, PixelHistory, StoreOp};
 use estampe_scene::Scene;
 use glam::{DVec3, Vec3};
+use std::borrow::Cow;
 
 /// The history of a pixel of a frame.
 #[derive(Debug, Clone, PartialEq)]
@@ -48,33 +49,39 @@ pub fn inspect(
     pixel: [u32; 2],
 ) -> Result<FramePixel, RenderError> {
     let to = (device, FrameOutput::Display);
-    with_passes(scene, options, to, &|_| {}, |passes, view| {
-        check_one_pass(options, passes)?;
-        let history =
-            passes.with_one_pass(StoreOp::Store, |pass| Ok(device.inspect(pass, pixel)?))?;
-        let texel = history.texels.first().and_then(Option::as_deref);
-        let mut final_rgba8 = texel
-            .and_then(|bytes| bytes.try_into().ok())
-            .unwrap_or([0; 4]);
-        if options.background.is_none() {
-            straighten(&mut final_rgba8, encoding(options));
-        }
-        let records = history.primitives.iter();
-        let spaces = records.map(|record| {
-            let vertices = record.vertices.iter();
-            let attributes = vertices.map(|vertex| vertex.attributes.first());
-            let units = attributes.map(|attribute| match attribute.map(Vec::as_slice) {
-                Some(&[x, y, z]) => Vec3::new(x, y, z),
-                _ => Vec3::ZERO,
+    with_passes(
+        Cow::Borrowed(scene),
+        options,
+        to,
+        &|_| {},
+        |passes, view| {
+            check_one_pass(options, passes)?;
+            let history =
+                passes.with_one_pass(StoreOp::Store, |pass| Ok(device.inspect(pass, pixel)?))?;
+            let texel = history.texels.first().and_then(Option::as_deref);
+            let mut final_rgba8 = texel
+                .and_then(|bytes| bytes.try_into().ok())
+                .unwrap_or([0; 4]);
+            if options.background.is_none() {
+                straighten(&mut final_rgba8, encoding(options));
+            }
+            let records = history.primitives.iter();
+            let spaces = records.map(|record| {
+                let vertices = record.vertices.iter();
+                let attributes = vertices.map(|vertex| vertex.attributes.first());
+                let units = attributes.map(|attribute| match attribute.map(Vec::as_slice) {
+                    Some(&[x, y, z]) => Vec3::new(x, y, z),
+                    _ => Vec3::ZERO,
+                });
+                units.map(|unit| spaces_of(view, unit)).collect()
             });
-            units.map(|unit| spaces_of(view, unit)).collect()
-        });
-        Ok(FramePixel {
-            spaces: spaces.collect(),
-            history,
-            final_rgba8,
-        })
-    })
+            Ok(FramePixel {
+                spaces: spaces.collect(),
+                history,
+                final_rgba8,
+            })
+        },
+    )
 }
 
 /// What each stage made of a frame.
@@ -99,20 +106,26 @@ pub fn inspect_stages(
     device: &Device,
 ) -> Result<FrameStages, RenderError> {
     let to = (device, FrameOutput::Display);
-    with_passes(scene, options, to, &|_| {}, |passes, view| {
-        check_one_pass(options, passes)?;
-        let stages =
-            passes.with_one_pass(StoreOp::Store, |pass| Ok(device.inspect_stages(pass)?))?;
-        let vertices = stages.vertices.iter();
-        let spaces = vertices.map(|vertex| {
-            let [x, y, z, _] = vertex.attribute;
-            spaces_of(view, Vec3::new(x, y, z))
-        });
-        Ok(FrameStages {
-            spaces: spaces.collect(),
-            stages,
-        })
-    })
+    with_passes(
+        Cow::Borrowed(scene),
+        options,
+        to,
+        &|_| {},
+        |passes, view| {
+            check_one_pass(options, passes)?;
+            let stages =
+                passes.with_one_pass(StoreOp::Store, |pass| Ok(device.inspect_stages(pass)?))?;
+            let vertices = stages.vertices.iter();
+            let spaces = vertices.map(|vertex| {
+                let [x, y, z, _] = vertex.attribute;
+                spaces_of(view, Vec3::new(x, y, z))
+            });
+            Ok(FrameStages {
+                spaces: spaces.collect(),
+                stages,
+            })
+        },
+    )
 }
 
 /// An error if the frame has several passes: only one can be inspected.

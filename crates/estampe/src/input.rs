@@ -43,13 +43,54 @@ pub(crate) struct Model {
     pub(crate) warnings: Vec<Warning>,
     /// Number of all warnings.
     pub(crate) warning_count: u64,
+    /// The counts of a scene that is [taken](Self::take_scene).
+    pub(crate) counts_of_taken: Option<SceneCounts>,
     /// Time to read the bytes, but for OBJ, which is read while it is parsed.
     pub(crate) read: Duration,
     /// Time to build a scene from the bytes, normals included.
     pub(crate) parse: Duration,
 }
 
+/// The sizes of a scene's contents.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct SceneCounts {
+    pub(crate) meshes: usize,
+    pub(crate) vertices: usize,
+    pub(crate) triangles: usize,
+    pub(crate) lines: usize,
+    pub(crate) points: usize,
+    pub(crate) materials: usize,
+    pub(crate) textures: usize,
+}
+
+impl SceneCounts {
+    fn of(scene: &Scene) -> Self {
+        let sum = |count: fn(&Mesh) -> usize| -> usize { scene.meshes.iter().map(count).sum() };
+        Self {
+            meshes: scene.meshes.len(),
+            vertices: sum(|mesh| mesh.positions.len()),
+            triangles: sum(|mesh| mesh.triangles.len()),
+            lines: sum(|mesh| mesh.lines.len()),
+            points: sum(|mesh| mesh.points.len()),
+            materials: scene.materials.len(),
+            textures: scene.images.len(),
+        }
+    }
+}
+
 impl Model {
+    /// The sizes of the scene's contents.
+    pub(crate) fn counts(&self) -> SceneCounts {
+        self.counts_of_taken
+            .unwrap_or_else(|| SceneCounts::of(&self.scene))
+    }
+
+    /// Takes the scene, for who draws it last; its counts stay.
+    pub(crate) fn take_scene(&mut self) -> Scene {
+        self.counts_of_taken = Some(self.counts());
+        std::mem::take(&mut self.scene)
+    }
+
     /// Reads a model, whose other files are those of `folder`.
     ///
     /// `on_stage` is called before each stage with its name.
@@ -168,6 +209,7 @@ impl Model {
             files: Vec::new(),
             warnings: Vec::new(),
             warning_count: 0,
+            counts_of_taken: None,
             read: Duration::ZERO,
             parse: start.elapsed(),
         })
@@ -189,6 +231,7 @@ impl Model {
             files: Vec::new(),
             warnings: loaded.warnings,
             warning_count: loaded.warning_count,
+            counts_of_taken: None,
             read,
             parse: start.elapsed(),
         })

@@ -12,10 +12,18 @@ use crate::strokes::{Stroke, StrokeDraws, StrokeStyle, Window};
 use crate::transforms::round_to_f32;
 use estampe_scene::Mesh;
 use glam::DVec2;
+use std::borrow::Cow;
 
 impl Planner<'_> {
     /// Plans all strokes of the options.
-    pub(super) fn plan_overlays(&self, builder: &mut DrawPlanBuilder) -> Result<(), RenderError> {
+    ///
+    /// `meshes` are those of the scene, if [`Self::has_strokes_of_meshes`].
+    pub(super) fn plan_overlays(
+        &self,
+        meshes: &[Cow<'_, Mesh>],
+        builder: &mut DrawPlanBuilder,
+    ) -> Result<(), RenderError> {
+        let meshes = || meshes.iter().map(AsRef::<Mesh>::as_ref);
         let options = self.options;
         let window = Window {
             clip_from_unit: self.view.clip_from_unit(),
@@ -31,7 +39,7 @@ impl Planner<'_> {
             let unit = |position| self.view.space.unit_from_object(position).as_dvec3();
             let of_mesh =
                 |mesh: &Mesh| feature_edges::strokes(mesh, edges, unit, &window, self.workers);
-            let strokes: Vec<Stroke> = self.scene.meshes.iter().flat_map(of_mesh).collect();
+            let strokes: Vec<Stroke> = meshes().flat_map(of_mesh).collect();
             let is_light = options.shading == Shading::Overdraw
                 || options.shading == Shading::Wireframe && is_dark;
             let style = StrokeStyle {
@@ -42,8 +50,8 @@ impl Planner<'_> {
             let draws = self.strokes(&strokes, style, &window, builder)?;
             builder.plan.edges.extend(draws);
         }
-        if options.samples == 1 && options.shading == Shading::Wireframe {
-            let strokes = self.outlines(&window);
+        if self.has_outlines() {
+            let strokes = self.outlines(meshes(), &window);
             let [r, g, b, alpha] = self.style.wireframe.line;
             let style = StrokeStyle {
                 color: [r, g, b],
@@ -80,10 +88,19 @@ impl Planner<'_> {
         Ok(())
     }
 
+    /// True if strokes are drawn along edges of the meshes.
+    pub(super) fn has_strokes_of_meshes(&self) -> bool {
+        self.options.edges.is_some() || self.has_outlines()
+    }
+
+    fn has_outlines(&self) -> bool {
+        self.options.samples == 1 && self.options.shading == Shading::Wireframe
+    }
+
     /// The outlines of the model: with one sample per pixel the triangles of a wireframe end at
     /// jagged borders, which these strokes cover. They fade with the size of triangles as the
     /// wireframe does.
-    fn outlines(&self, window: &Window) -> Vec<Stroke> {
+    fn outlines<'m>(&self, meshes: impl Iterator<Item = &'m Mesh>, window: &Window) -> Vec<Stroke> {
         let of_outlines = FeatureEdges {
             angle_deg: 180.0,
             width_px: None,
@@ -101,8 +118,7 @@ impl Planner<'_> {
                 ..stroke
             }
         };
-        let strokes = self.scene.meshes.iter().flat_map(of_mesh);
-        strokes.map(faded).collect()
+        meshes.flat_map(of_mesh).map(faded).collect()
     }
 
     /// The linear colour of these codes in the picture.

@@ -1,7 +1,7 @@
 //! Plans the draws of a scene, mesh by mesh.
 
 use super::drawing::{DrawPlan, PlannedDraw};
-use super::surfaces::PipelineKey;
+use super::surfaces::{MeshDraws, PipelineKey};
 use crate::frame::RenderError;
 use crate::geometry::faces::{FaceAttributes, LitAt, unshared_streams};
 use crate::geometry::order::{DistantTriangle, back_to_front};
@@ -10,14 +10,18 @@ use crate::geometry::vertex_data::{MeshStreams, StreamData, VertexStream};
 use crate::materials::{Materials, TextureKey};
 use crate::options::{RenderOptions, Shading};
 use crate::scene_view::SceneView;
-use crate::surface_pipelines::{FrameStyle, StreamPipeline};
+use crate::surface_pipelines::{FrameStyle, StreamPipeline, SurfaceAlpha};
 use estampe::{BufferError, BufferSlice, Device, Texture, TextureError};
 use estampe_scene::{Mesh, Scene, Workers};
+use std::borrow::Cow;
 use std::collections::HashMap;
 
 /// Inputs of [`Planner::plan`].
 pub(crate) struct Planner<'a> {
+    /// The scene, which may lack its meshes.
     pub(crate) scene: &'a Scene,
+    /// The meshes of the scene. The memory of owned ones becomes that of buffers where it can.
+    pub(crate) meshes: Vec<Cow<'a, Mesh>>,
     pub(crate) options: &'a RenderOptions,
     pub(crate) view: &'a SceneView,
     pub(crate) style: &'a FrameStyle,
@@ -45,15 +49,27 @@ pub(super) struct DrawPlanBuilder {
 
 impl Planner<'_> {
     /// Plans the draws of the whole scene.
-    pub(crate) fn plan(&self) -> Result<DrawPlan, RenderError> {
+    pub(crate) fn plan(mut self) -> Result<DrawPlan, RenderError> {
         let mut materials = Materials::new(self.scene, self.options, self.view, self.device);
         let with_tangents = self.make_tangents_and_textures(&mut materials)?;
         let mut builder = DrawPlanBuilder::default();
-        for (mesh, made) in self.scene.meshes.iter().zip(&with_tangents) {
-            self.plan_mesh(made.as_ref().unwrap_or(mesh), &mut materials, &mut builder)?;
+        let kept = if self.has_strokes_of_meshes() {
+            std::mem::take(&mut self.meshes)
+        } else {
+            Vec::new()
+        };
+        let meshes = if kept.is_empty() {
+            std::mem::take(&mut self.meshes)
+        } else {
+            let meshes = kept.iter();
+            meshes.map(|mesh| Cow::Borrowed(mesh.as_ref())).collect()
+        };
+        for (mesh, made) in meshes.into_iter().zip(with_tangents) {
+            let mesh = made.map_or(mesh, Cow::Owned);
+            self.plan_mesh(mesh, &mut materials, &mut builder)?;
         }
         builder.plan.opaque.append(&mut builder.smooth_lines);
-        self.plan_overlays(&mut builder)?;
+        self.plan_overlays(&kept, &mut builder)?;
         for run in back_to_front(std::mem::take(&mut builder.transparent)) {
             let (pipeline, vertex_buffers) =
                 builder.transparent_surfaces[run.surface as usize].clone();
@@ -83,8 +99,9 @@ impl Planner<'_> {
             Tangents(Option<Mesh>),
             Texture(TextureKey, Result<Texture, TextureError>),
         }
-        let tangents = self.scene.meshes.iter().map(Job::Tangents);
-        let textures = materials.missing_textures(self.workers);
+        let meshes = || self.meshes.iter().map(AsRef::<Mesh>::as_ref);
+        let tangents = meshes().map(Job::Tangents);
+        let textures = materials.missing_textures(meshes(), self.workers);
         let jobs = tangents.chain(textures.into_iter().map(Job::Texture));
         let made = self.workers.map(jobs, |job| match job {
             Job::Tangents(mesh) => {
@@ -93,7 +110,7 @@ impl Planner<'_> {
             }
             Job::Texture(key) => Made::Texture(key, materials.create(key)),
         });
-        let mut meshes = Vec::with_capacity(self.scene.meshes.len());
+        let mut meshes = Vec::with_capacity(self.meshes.len());
         for made in made {
             match made {
                 Made::Tangents(mesh) => meshes.push(mesh),
@@ -117,12 +134,23 @@ impl Planner<'_> {
 
     fn plan_mesh(
         &self,
-        mesh: &Mesh,
+        mesh: Cow<'_, Mesh>,
         materials: &mut Materials<'_>,
         builder: &mut DrawPlanBuilder,
     ) -> Result<(), RenderError> {
         let is_unshared = self.style.needs_unshared_vertices() || mesh.normals.is_empty();
         let has_points_or_lines = !mesh.lines.is_empty() || !mesh.points.is_empty();
+        let has_triangles_alone = !mesh.triangles.is_empty() && !has_points_or_lines;
+        let mesh = match mesh {
+            Cow::Owned(mesh)
+                if !is_unshared
+                    && has_triangles_alone
+                    && self.is_read_once(&mesh, materials)? =>
+            {
+                return self.plan_spent(mesh, materials, builder);
+            }
+            ref mesh => mesh.as_ref(),
+        };
         let shared = (!is_unshared && !mesh.triangles.is_empty() || has_points_or_lines)
             .then(|| MeshStreams::shared(mesh, &self.view.space, self.device, self.workers))
             .transpose()?;
@@ -146,13 +174,71 @@ impl Planner<'_> {
                     &unshared
                 }
             };
-            self.plan_triangles(mesh, streams, is_unshared, materials, builder)?;
+            element_count(mesh.triangles.len().saturating_mul(3))?;
+            let indices = (!is_unshared)
+                .then(|| self.index_buffer(mesh))
+                .transpose()?;
+            let of = MeshDraws {
+                mesh,
+                triangle_count: mesh.triangles.len(),
+                has_normals: !mesh.normals.is_empty(),
+                streams,
+                indices,
+                edges: self.edge_streams(mesh, streams, is_unshared)?,
+                is_unshared,
+            };
+            self.plan_triangles(&of, materials, builder)?;
         }
         builder.first_number += mesh.triangles.len();
         if let Some(shared) = &shared {
             self.plan_points_and_lines(mesh, shared, builder)?;
         }
         Ok(())
+    }
+
+    /// True if the arrays of a mesh with shared vertices are not needed once they are in buffers.
+    fn is_read_once(
+        &self,
+        mesh: &Mesh,
+        materials: &mut Materials<'_>,
+    ) -> Result<bool, RenderError> {
+        let mut is_blended = false;
+        for surface in &mesh.surfaces {
+            // Transparent triangles are sorted by their positions.
+            let style = materials.style(surface.material, mesh)?;
+            is_blended |= style.alpha == SurfaceAlpha::Blended;
+        }
+        if mesh.surfaces.is_empty() {
+            is_blended = materials.style(None, mesh)?.alpha == SurfaceAlpha::Blended;
+        }
+        // Named attributes are those of a mesh whose positions are there to count them.
+        let has_attributes = !mesh.attributes.is_empty();
+        Ok(!is_blended && !has_attributes && self.style.overlay.is_none())
+    }
+
+    /// Plans a mesh of triangles with shared vertices, whose arrays are read once: they become
+    /// buffers where they are.
+    fn plan_spent(
+        &self,
+        mut mesh: Mesh,
+        materials: &mut Materials<'_>,
+        builder: &mut DrawPlanBuilder,
+    ) -> Result<(), RenderError> {
+        let triangle_count = mesh.triangles.len();
+        element_count(triangle_count.saturating_mul(3))?;
+        let streams = MeshStreams::spent(&mut mesh, &self.view.space, self.device, self.workers)?;
+        let indices = std::mem::take(&mut mesh.triangles).into_flattened();
+        let of = MeshDraws {
+            mesh: &mesh,
+            triangle_count,
+            has_normals: true,
+            streams: &self.painted(streams)?,
+            indices: Some(self.index_buffer_of(indices)?),
+            edges: None,
+            is_unshared: false,
+        };
+        builder.first_number += triangle_count;
+        self.plan_triangles(&of, materials, builder)
     }
 
     /// The streams without vertex colours, if one colour replaces them.

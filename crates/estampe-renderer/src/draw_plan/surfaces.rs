@@ -36,13 +36,17 @@ pub(super) struct PipelineKey {
 }
 
 /// The triangles of a mesh as draws read them.
-struct MeshDraws<'a> {
-    mesh: &'a Mesh,
-    streams: &'a MeshStreams,
+pub(super) struct MeshDraws<'a> {
+    /// The mesh; without positions, normals and triangles if buffers have taken them.
+    pub(super) mesh: &'a Mesh,
+    pub(super) triangle_count: usize,
+    pub(super) has_normals: bool,
+    pub(super) streams: &'a MeshStreams,
     /// Indices of shared vertices.
-    indices: Option<BufferSlice>,
+    pub(super) indices: Option<BufferSlice>,
     /// Unshared vertices, if edges are drawn over the surfaces.
-    edges: Option<MeshStreams>,
+    pub(super) edges: Option<MeshStreams>,
+    pub(super) is_unshared: bool,
 }
 
 /// A surface with its pipelines' key for an opaque surface.
@@ -57,25 +61,15 @@ impl Planner<'_> {
     /// Plans the surfaces of a mesh.
     pub(super) fn plan_triangles(
         &self,
-        mesh: &Mesh,
-        streams: &MeshStreams,
-        is_unshared: bool,
+        of: &MeshDraws<'_>,
         materials: &mut Materials<'_>,
         builder: &mut DrawPlanBuilder,
     ) -> Result<(), RenderError> {
-        element_count(mesh.triangles.len().saturating_mul(3))?;
-        let indices = (!is_unshared)
-            .then(|| self.index_buffer(mesh))
-            .transpose()?;
-        let of = MeshDraws {
-            mesh,
-            streams,
-            indices,
-            edges: self.edge_streams(mesh, streams, is_unshared)?,
-        };
+        let mesh = of.mesh;
+        element_count(of.triangle_count.saturating_mul(3))?;
         let whole = [Surface {
             material: None,
-            triangles: 0..mesh.triangles.len(),
+            triangles: 0..of.triangle_count,
         }];
         let surfaces = if mesh.surfaces.is_empty() {
             &whole[..]
@@ -83,7 +77,7 @@ impl Planner<'_> {
             &mesh.surfaces
         };
         for surface in surfaces {
-            let end = surface.triangles.end.min(mesh.triangles.len());
+            let end = surface.triangles.end.min(of.triangle_count);
             let triangles = surface.triangles.start.min(end)..end;
             let style = materials.style(surface.material, mesh)?;
             let is_blended = style.alpha == SurfaceAlpha::Blended;
@@ -91,13 +85,13 @@ impl Planner<'_> {
                 continue;
             }
             let surface = SurfaceDraw {
-                of: &of,
+                of,
                 style: &style,
                 key: PipelineKey {
                     material: surface.material,
                     role: Some(Role::Opaque),
-                    is_unshared,
-                    has_normals: !mesh.normals.is_empty(),
+                    is_unshared: of.is_unshared,
+                    has_normals: of.has_normals,
                     has_uvs: !mesh.uvs.is_empty(),
                     has_colors: !mesh.colors.is_empty(),
                     has_uvs_1: mesh.attribute(Mesh::UV1).is_some(),
@@ -127,7 +121,7 @@ impl Planner<'_> {
     }
 
     /// The streams of edges over a mesh's surfaces, if they are drawn.
-    fn edge_streams(
+    pub(super) fn edge_streams(
         &self,
         mesh: &Mesh,
         streams: &MeshStreams,

@@ -5,6 +5,7 @@ use super::unit_space::UnitSpace;
 use estampe::state::{VertexAttribute, VertexBufferLayout, VertexStepMode};
 use estampe::{BufferError, BufferSlice, Device, VertexFormat};
 use estampe_scene::{Mesh, Workers};
+use glam::Vec3;
 
 /// The attributes that surface shaders may read, in this order.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -87,6 +88,29 @@ impl StreamData {
         })
     }
 
+    /// A stream with an element per value, computed by several threads in the values' own memory.
+    fn of_spent(
+        device: &Device,
+        values: Vec<Vec3>,
+        element: impl Fn(Vec3) -> Vec3 + Sync,
+        workers: Workers,
+    ) -> Result<Self, BufferError> {
+        /// Vertices of a piece: some hundred microseconds of work.
+        const PIECE: usize = 1 << 15;
+        // The standard library collects in the memory of the values, whose size is the same.
+        let bits = |value: Vec3| value.to_array().map(f32::to_bits);
+        let mut words: Vec<[u32; 3]> = values.into_iter().map(bits).collect();
+        workers.map(words.chunks_mut(PIECE), |words| {
+            for words in words {
+                *words = bits(element(Vec3::from_array(words.map(f32::from_bits))));
+            }
+        });
+        Ok(Self {
+            buffer: BufferSlice::from(&device.create_buffer_of_words(words.into_flattened())?),
+            is_constant: false,
+        })
+    }
+
     /// A stream with one element for all vertices.
     pub(crate) fn constant(device: &Device, element: &[f32]) -> Result<Self, BufferError> {
         let words = element.iter().map(|value| value.to_bits()).collect();
@@ -133,6 +157,15 @@ pub(crate) struct MeshStreams {
     pub(crate) faces: StreamData,
 }
 
+/// −1 for normals that point against the winding.
+fn sign_of_normals(mesh: &Mesh) -> f32 {
+    if normals_oppose_winding(mesh) {
+        -1.0
+    } else {
+        1.0
+    }
+}
+
 /// The values of a named attribute of N numbers; none if the mesh has no such attribute.
 pub(crate) fn attribute<'a, const N: usize>(mesh: &'a Mesh, name: &str) -> &'a [[f32; N]] {
     let named = mesh.attribute(name).filter(|found| found.components == N);
@@ -148,23 +181,46 @@ impl MeshStreams {
         device: &Device,
         workers: Workers,
     ) -> Result<Self, BufferError> {
+        let sign = sign_of_normals(mesh);
         let position = |p| space.unit_from_object(p).to_array();
         let positions = StreamData::of_each(device, &mesh.positions, position, workers)?;
-        let sign = if normals_oppose_winding(mesh) {
-            -1.0
+        let normals = if mesh.normals.is_empty() {
+            StreamData::constant(device, &[0.0; 3])?
         } else {
-            1.0
+            StreamData::of_each(device, &mesh.normals, |n| (n * sign).to_array(), workers)?
         };
+        Self::with_other_attributes([positions, normals], mesh, sign, (device, workers))
+    }
+
+    /// [`Self::shared`] of a mesh with normals, in the memory of its positions and normals, which
+    /// it has no longer.
+    pub(crate) fn spent(
+        mesh: &mut Mesh,
+        space: &UnitSpace,
+        device: &Device,
+        workers: Workers,
+    ) -> Result<Self, BufferError> {
+        let sign = sign_of_normals(mesh);
+        let positions = std::mem::take(&mut mesh.positions);
+        let normals = std::mem::take(&mut mesh.normals);
+        let unit = |position| space.unit_from_object(position);
+        let positions = StreamData::of_spent(device, positions, unit, workers)?;
+        let normals = StreamData::of_spent(device, normals, |normal| normal * sign, workers)?;
+        Self::with_other_attributes([positions, normals], mesh, sign, (device, workers))
+    }
+
+    fn with_other_attributes(
+        [positions, normals]: [StreamData; 2],
+        mesh: &Mesh,
+        sign: f32,
+        (device, workers): (&Device, Workers),
+    ) -> Result<Self, BufferError> {
         let uvs_1 = attribute::<2>(mesh, Mesh::UV1);
         let tangents = attribute::<4>(mesh, Mesh::TANGENT);
         Ok(Self {
             lit_at: positions.clone(),
             positions,
-            normals: if mesh.normals.is_empty() {
-                StreamData::constant(device, &[0.0; 3])?
-            } else {
-                StreamData::of_each(device, &mesh.normals, |n| (n * sign).to_array(), workers)?
-            },
+            normals,
             uvs: if mesh.uvs.is_empty() {
                 StreamData::constant(device, &[0.0; 2])?
             } else {

@@ -44,7 +44,7 @@ impl Faces {
         };
         let scene = without_points_and_lines(scene);
         let to = (device, FrameOutput::Display);
-        with_passes(&scene, &options, to, &|_| {}, |passes, view| {
+        with_passes(scene, &options, to, &|_| {}, |passes, view| {
             passes.draw(device)?;
             let rgba = device.read_texture(&passes.attachments.image)?;
             let number = |&[r, g, b, alpha]: &[u8; 4]| (alpha != 0).then(|| face_number([r, g, b]));

@@ -66,7 +66,7 @@ pub(super) fn draw_once(args: &RenderArgs) -> Result<Vec<PathBuf>, Failure> {
             None => PictureDetail::of(&args.picture),
         },
     };
-    let model = Model::read(source, args.format, reading, |stage| {
+    let mut model = Model::read(source, args.format, reading, |stage| {
         progress.stage(stage);
     })?;
     if let Some(shots) = &shots {
@@ -91,7 +91,7 @@ pub(super) fn draw_once(args: &RenderArgs) -> Result<Vec<PathBuf>, Failure> {
     };
     let preview = |image: &Image| terminal.map(|terminal| terminal.bytes(image));
     let drawn = draw_with(
-        &model,
+        &mut model,
         &args.picture,
         ViewDirection::default(),
         (output, format),

@@ -21,7 +21,7 @@ use estampe_assets::image::{
 use estampe_assets::{Limits, ModelFormat};
 use estampe_renderer::{
     CameraOptions, Eye, Frame, LightImage, ProjectionKind, RenderOptions, Up, ViewDirection,
-    composite_over, render, render_light, render_watched,
+    composite_over, render, render_light, render_spent,
 };
 use estampe_scene::{Image, Projection, Scene};
 use std::time::Instant;
@@ -37,9 +37,9 @@ pub(crate) struct Drawn {
 }
 
 /// Draws the model, and writes the picture to its destination. `default_view` is the view if no
-/// option says another one.
+/// option says another one. The model's scene is taken.
 pub(crate) fn draw(
-    model: &Model,
+    model: &mut Model,
     args: &PictureArgs,
     default_view: ViewDirection,
     (output, format): (&Destination, ImageFormat),
@@ -53,7 +53,7 @@ pub(crate) fn draw(
 
 /// As [`draw`], with other bytes than those of the format.
 pub(super) fn draw_with(
-    model: &Model,
+    model: &mut Model,
     args: &PictureArgs,
     default_view: ViewDirection,
     (output, format): (&Destination, ImageFormat),
@@ -73,7 +73,7 @@ pub(super) fn draw_with(
     let device_time = device_start.elapsed();
     let options = options(model, args, (default_view, texture), &device)?;
     let on_stage = |stage| progress.frame(stage);
-    let frame = render_watched(&model.scene, &options, &device, &on_stage);
+    let frame = render_spent(model.take_scene(), &options, &device, &on_stage);
     let frame = frame.map_err(|error| args.shader.failure(error))?;
 
     progress.stage("encoding");

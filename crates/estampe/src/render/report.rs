@@ -156,13 +156,10 @@ pub(crate) fn write(
         return write_json(&object(), output);
     }
     if !args.quiet {
-        let count = |of: fn(&estampe_scene::Mesh) -> usize| -> usize {
-            model.scene.meshes.iter().map(of).sum()
-        };
-        let (triangles, lines) = (count(|m| m.triangles.len()), count(|m| m.lines.len()));
-        let primitives = match (triangles, lines) {
-            (0, 1..) => format!("{lines} lines"),
-            _ => format!("{triangles} triangles"),
+        let counts = model.counts();
+        let primitives = match (counts.triangles, counts.lines) {
+            (0, lines @ 1..) => format!("{lines} lines"),
+            (triangles, _) => format!("{triangles} triangles"),
         };
         let total = milliseconds(total);
         // If standard error is closed, the line is lost.
@@ -243,17 +240,14 @@ pub(crate) fn rounded_milliseconds(duration: Duration) -> f64 {
 
 /// The counts of a model's contents.
 pub(crate) fn counts(model: &Model) -> Value {
-    let scene = &model.scene;
-    let sum = |count: fn(&estampe_scene::Mesh) -> usize| -> usize {
-        scene.meshes.iter().map(count).sum()
-    };
+    let counts = model.counts();
     json!({
-        "meshes": scene.meshes.len(),
-        "vertices": sum(|mesh| mesh.positions.len()),
-        "triangles": sum(|mesh| mesh.triangles.len()),
-        "lines": sum(|mesh| mesh.lines.len()),
-        "points": sum(|mesh| mesh.points.len()),
-        "materials": scene.materials.len(),
-        "textures": scene.images.len(),
+        "meshes": counts.meshes,
+        "vertices": counts.vertices,
+        "triangles": counts.triangles,
+        "lines": counts.lines,
+        "points": counts.points,
+        "materials": counts.materials,
+        "textures": counts.textures,
     })
 }

@@ -57,7 +57,7 @@ pub(crate) fn run(args: &ShapeArgs) -> Result<(), Failure> {
     };
     let meshed = mesh(&function, &grid, seams)?;
     let shape = json_of(&function, &grid, &meshed);
-    let model = model(args, &function, meshed, is_picture, &clock);
+    let mut model = model(args, &function, meshed, is_picture, &clock);
 
     match output {
         Output::Picture(format) => {
@@ -67,7 +67,7 @@ pub(crate) fn run(args: &ShapeArgs) -> Result<(), Failure> {
                 ViewDirection::default()
             };
             let to = (&args.output, format);
-            let drawn = draw(&model, &args.picture, view, to, &clock, &progress)?;
+            let drawn = draw(&mut model, &args.picture, view, to, &clock, &progress)?;
             drop(progress);
             let report = Report {
                 args: &args.picture,
@@ -213,6 +213,7 @@ fn model(
         contents: ModelContents::default(),
         warning_count: warnings.len() as u64,
         warnings,
+        counts_of_taken: None,
         read: Duration::ZERO,
         parse: clock.elapsed(),
     }

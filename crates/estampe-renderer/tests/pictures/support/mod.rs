@@ -1,7 +1,7 @@
 //! Draws a scene in every way that must give the same bytes.
 
 use estampe::{Device, DeviceDescriptor, Level};
-use estampe_renderer::{Frame, RenderOptions, render};
+use estampe_renderer::{Frame, RenderOptions, render, render_spent};
 use estampe_scene::Scene;
 use std::sync::LazyLock;
 
@@ -22,10 +22,16 @@ pub(crate) static DEVICES: LazyLock<Vec<Device>> = LazyLock::new(|| {
     kinds.into_iter().map(device).collect()
 });
 
-/// The picture, which has the same bytes on every device.
+/// The picture, which has the same bytes on every device, and if the scene is used up.
 pub(crate) fn drawn_alike(scene: &Scene, options: &RenderOptions) -> Frame {
     let draw = |device| render(scene, options, device).expect("a small picture");
     let frame = draw(&DEVICES[0]);
+    let last = &DEVICES[DEVICES.len() - 1];
+    let spent = render_spent(scene.clone(), options, last, &|_| {}).expect("a small picture");
+    assert!(
+        spent.image == frame.image,
+        "the buffers of a scene that is used up give another picture"
+    );
     for device in &DEVICES[1..] {
         assert!(
             draw(device).image == frame.image,
