@@ -58,7 +58,7 @@ use std::io::{self, BufWriter, Write};
 use std::process::ExitCode;
 use std::sync::LazyLock;
 
-use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
+use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand};
 use failure::Failure;
 
 /// Renders 3D models and functions to images, on any machine: no GPU, no display, no system
@@ -127,15 +127,16 @@ fn version() -> &'static str {
 }
 
 /// The command line. Mistakes, and requests for help, end the process.
-fn parsed(words: impl IntoIterator<Item = OsString>) -> Cli {
-    let matches = command().try_get_matches_from(words);
+fn parsed(command: clap::Command, words: impl IntoIterator<Item = OsString>) -> Cli {
+    let matches = command.try_get_matches_from(words);
     let parsed = matches.and_then(|matches| Cli::from_arg_matches(&matches));
     parsed.unwrap_or_else(|error| advice::advised(error).exit())
 }
 
 /// The parser. Every option with a value takes negative numbers, so that its own parser can say
-/// what is wrong with them.
-fn command() -> clap::Command {
+/// what is wrong with them. For `render`, which draws small pictures in some milliseconds, it is that
+/// of this command alone: the options of all commands take a millisecond to make.
+fn command(name: Option<&str>) -> clap::Command {
     fn with_negative_numbers(command: clap::Command) -> clap::Command {
         let command = command.mut_args(|arg| {
             let is_option = !arg.is_positional() && arg.get_action().takes_values();
@@ -147,20 +148,28 @@ fn command() -> clap::Command {
         });
         command.mut_subcommands(with_negative_numbers)
     }
-    with_negative_numbers(Cli::command())
+    with_negative_numbers(match name {
+        Some("render") => {
+            let render = render::RenderArgs::augment_args(clap::Command::new("render"));
+            let parent = clap::Command::new("estampe").version(version());
+            parent.subcommand(render)
+        }
+        _ => Cli::command(),
+    })
 }
 
 fn main() -> ExitCode {
     let words: Vec<OsString> = std::env::args_os().collect();
     let name = words.get(1).map(|name| name.to_string_lossy().into_owned());
-    let words = match presets::with_presets(&command(), words) {
+    let command = command(name.as_deref());
+    let words = match presets::with_presets(&command, words) {
         Ok(words) => words,
         Err(failure) => {
             let code = report(&name.unwrap_or_default(), None, Err(failure));
             return ExitCode::from(code);
         }
     };
-    let cli = parsed(words);
+    let cli = parsed(command, words);
     let code = match &cli.command {
         Command::Render(args) => report(
             "render",
@@ -255,4 +264,41 @@ fn report(command: &str, json: Option<bool>, result: Result<(), Failure>) -> u8 
         terminal::lines(&message)
     );
     code
+}
+
+#[cfg(test)]
+mod tests {
+    use super::command;
+
+    #[test]
+    fn render_alone_is_parsed_as_among_all_commands() {
+        let mut alone = command(Some("render"));
+        let mut all = command(None);
+        for command in [&mut alone, &mut all] {
+            command.build();
+        }
+        let help = |command: &mut clap::Command| {
+            let render = command.find_subcommand_mut("render");
+            render.map(|render| render.render_long_help().to_string())
+        };
+        assert!(help(&mut alone).is_some());
+        assert_eq!(help(&mut alone), help(&mut all));
+        for words in [
+            "estampe render",
+            "estampe render --help",
+            "estampe render -h",
+            "estampe render --version",
+            "estampe render a.obj --sice 3x3",
+            "estampe render a.obj --size 3",
+            "estampe render a.obj b.obj",
+            "estampe render a.obj -o a.png --azimuth -30 --margin -1",
+            "estampe render a.obj --view iso --azimuth 3",
+        ] {
+            let error = |command: &clap::Command| {
+                let matches = command.clone().try_get_matches_from(words.split(' '));
+                matches.err().map(|error| error.to_string())
+            };
+            assert_eq!(error(&alone), error(&all), "{words}");
+        }
+    }
 }
