@@ -2,6 +2,7 @@
 
 use estampe_ir::Type;
 use estampe_ir::interface::{Input, Output, Stage};
+use estampe_ir::lanes::Kernel;
 use estampe_ir::text;
 use estampe_ir::tree::verify;
 use estampe_ir::tree::{Builder, passes};
@@ -191,4 +192,32 @@ outputs v6
     let straight = optimised(text);
     assert!(!straight.contains("loop"), "{straight}");
     assert_eq!(straight.matches("fmul").count(), 24, "{straight}");
+}
+
+/// Each function that is inlined brings its own constants; accesses in the same mask are done
+/// together.
+#[test]
+fn constant_masks_are_one_value_of_a_kernel() {
+    let source = "tree fragment
+input varying(0)
+output color(0, 0)
+texture_at 0.1
+sampler_at 0.0
+v0 = input 0
+m1 = mask true
+v2, v3, v4, v5 = texture sample of 0 sampler 0 at (v0, v0) in m1
+m6 = mask true
+v7, v8, v9, v10 = texture sample of 0 sampler 0 at (v0, v2) in m6
+v11 = fadd v2, v7
+outputs v11
+";
+    let tree = text::tree(source).unwrap_or_else(|error| panic!("{error}"));
+    let kernel = Kernel::from_tree(&tree).to_string();
+    let accesses = kernel
+        .lines()
+        .filter(|line| line.contains("texture sample"));
+    let masks = accesses.filter_map(|line| line.rsplit_once(" in ").map(|(_, mask)| mask));
+    let masks: Vec<&str> = masks.collect();
+    assert_eq!(masks.len(), 2, "{kernel}");
+    assert_eq!(masks[0], masks[1], "{kernel}");
 }

@@ -144,6 +144,13 @@ impl<'a> Lowering<'a> {
     }
 
     fn op(&mut self, op: &Op, first: Value) {
+        if let Op::MaskConstant(is_set) = op {
+            // A function that is inlined several times has its own constants each time. As one
+            // value they show which operations act in the same lanes.
+            let Constants { none, all, .. } = self.constants;
+            self.map[first.index()] = if *is_set { all } else { none };
+            return;
+        }
         let mut op = op.clone();
         op.each_operand_mut(|value, _| *value = self.map[value.index()]);
         let running = self.state[RUNNING];
