@@ -6,7 +6,7 @@ use estampe_format::normalized::encode_unorm_lanes;
 use estampe_simd::{
     Bytes, LANES, Lanes, Select, SimdBase, SimdCvtFloat, f32x16, i32x16, mask32x16, u32x16,
 };
-use estampe_types::{StorageTexture, TextureDimension, TextureFormat, ViewDimension};
+use estampe_types::{StorageTexture, TextureDimension, TextureFormat};
 
 /// The numbers of the lanes.
 const NUMBERS: [u32; LANES] = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15];
@@ -15,15 +15,18 @@ const NUMBERS: [u32; LANES] = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14,
 const UNIT: f32 = 1.0 / 255.0;
 
 impl TexelView {
+    /// True if [`load_unorm8`](Self::load_unorm8) loads texels of the view.
+    #[inline]
+    #[must_use]
+    pub fn is_unorm8(&self) -> bool {
+        self.is_unorm8
+    }
+
     /// The texels (x, y) of the finest level, zeros outside; `None` if the view is of another kind.
     #[inline(always)]
     pub fn load_unorm8<S: Lanes>(&self, s: S, at: [i32x16<S>; 2]) -> Option<[f32x16<S>; 4]> {
         let plane = self.planes.first()?;
-        let format = self.texture.stored_format();
-        let is_common = format == TextureFormat::Rgba8Unorm
-            && self.dimension == ViewDimension::D2
-            && self.texture.shape.samples == 1;
-        if !is_common {
+        if !self.is_unorm8 {
             return None;
         }
         let [width, height, _] = plane.sides;

@@ -8,7 +8,9 @@ use estampe_simd::{
     Bytes, LANES, Lanes, Packet, SimdBase, dispatch, f32x16, floats_of_mut, i32x16, ints_of,
     mask32x16, u32x16,
 };
-use estampe_texture::{SampledTexture, TextureBindings, storage_load, storage_store, store_unorm8};
+use estampe_texture::{
+    SampledTexture, TexelView, TextureBindings, storage_load, storage_store, store_unorm8,
+};
 use estampe_types::{Bindings, StorageTexture, Vec4};
 use std::cell::OnceCell;
 use std::sync::Arc;
@@ -22,6 +24,9 @@ pub(super) struct BoundTextures<'a> {
     /// For each texture and sampler, both together; made when it is first sampled. `None` inside
     /// where the sampler cannot sample the texture.
     sampled: Vec<OnceCell<Option<Arc<SampledTexture>>>>,
+    /// For each texture its view, found when texels are first loaded; `None` inside for a texture
+    /// that shaders store to.
+    loaded: Vec<OnceCell<Option<&'a TexelView>>>,
 }
 
 impl<'a> BoundTextures<'a> {
@@ -36,7 +41,19 @@ impl<'a> BoundTextures<'a> {
             textures,
             samplers,
             sampled: vec![OnceCell::new(); pairs],
+            loaded: vec![OnceCell::new(); textures.len()],
         }
+    }
+
+    fn loaded(&self, texture: u32) -> Option<&'a TexelView> {
+        let found = self.loaded.get(texture as usize)?.get_or_init(|| {
+            let &TextureSlot { group, binding } = self.textures.get(texture as usize)?;
+            let stored = self.bindings.storage_texture(group, binding);
+            stored
+                .is_none()
+                .then(|| self.bindings.texture(group, binding))
+        });
+        *found
     }
 
     fn sampled(&self, texture: u32, sampler: u32) -> Option<&SampledTexture> {
@@ -127,48 +144,15 @@ impl BoundTextures<'_> {
         let level = access.level;
         match op.query {
             TextureQuery::Load => {
-                dispatch!(level, s => self.load_common(s, access)) || self.load_packet(access)
+                let Some(view) = self.loaded(op.texture) else {
+                    return false;
+                };
+                view.is_unorm8() && dispatch!(level, s => load_common(s, view, access))
+                    || load_packet(view, access)
             }
             TextureQuery::Store => dispatch!(level, s => self.store_common(s, access, mask)),
             _ => false,
         }
-    }
-
-    /// Loads a packet of texels of the finest level; false if the texture is not a common one.
-    #[inline(always)]
-    fn load_common<S: Lanes>(&self, s: S, access: &mut TextureAccess<'_>) -> bool {
-        let (group, binding) = self.slot(access);
-        let level = access.level_of_detail();
-        let is_finest = level.is_none_or(|level| level[0].is_uniform() && level[0].0[0] == 0);
-        let is_stored = self.bindings.storage_texture(group, binding).is_some();
-        if !is_finest || is_stored || access.sample().is_some() {
-            return false;
-        }
-        let [x, y, _] = texel(s, access, 0);
-        let Some(texels) = self.bindings.texture(group, binding).load_unorm8(s, [x, y]) else {
-            return false;
-        };
-        set(access, 0, texels);
-        true
-    }
-
-    /// Loads a packet of texels of any format but integers; false if they cannot be loaded
-    /// together, and nothing is done.
-    fn load_packet(&self, access: &mut TextureAccess<'_>) -> bool {
-        let (group, binding) = self.slot(access);
-        if self.bindings.storage_texture(group, binding).is_some() {
-            return false;
-        }
-        let [x, y] = [0, 1].map(|at| ints_of(access.coordinate(at)).first());
-        let [mip, sample] = [access.level_of_detail(), access.sample()].map(first_or_zeros);
-        let (Some(x), Some(y), Some(mip), Some(sample)) = (x, y, mip, sample) else {
-            return false;
-        };
-        let level = access.level;
-        let texels = floats_of_mut(access.results_mut()).first_chunk_mut();
-        let texture = self.bindings.texture(group, binding);
-        texels
-            .is_some_and(|texels| texture.fetch_packet(level, [x, y, &ZEROS, mip, sample], texels))
     }
 
     /// Stores a packet of texels; false if the texture is not a common one.
@@ -267,6 +251,35 @@ impl BoundTextures<'_> {
             }
         }
     }
+}
+
+/// Loads a packet of texels of the finest level; false if that is not what is asked.
+#[inline(always)]
+fn load_common<S: Lanes>(s: S, view: &TexelView, access: &mut TextureAccess<'_>) -> bool {
+    let level = access.level_of_detail();
+    let is_finest = level.is_none_or(|level| level[0].is_uniform() && level[0].0[0] == 0);
+    if !is_finest || access.sample().is_some() {
+        return false;
+    }
+    let [x, y, _] = texel(s, access, 0);
+    let Some(texels) = view.load_unorm8(s, [x, y]) else {
+        return false;
+    };
+    set(access, 0, texels);
+    true
+}
+
+/// Loads a packet of texels of any format but integers; false if they cannot be loaded together,
+/// and nothing is done.
+fn load_packet(view: &TexelView, access: &mut TextureAccess<'_>) -> bool {
+    let [x, y] = [0, 1].map(|at| ints_of(access.coordinate(at)).first());
+    let [mip, sample] = [access.level_of_detail(), access.sample()].map(first_or_zeros);
+    let (Some(x), Some(y), Some(mip), Some(sample)) = (x, y, mip, sample) else {
+        return false;
+    };
+    let level = access.level;
+    let texels = floats_of_mut(access.results_mut()).first_chunk_mut();
+    texels.is_some_and(|texels| view.fetch_packet(level, [x, y, &ZEROS, mip, sample], texels))
 }
 
 /// The first packet of integers; zeros for none.

@@ -21,7 +21,7 @@ impl TexelView {
         [x, y, z, mips, samples]: [&Packet<i32>; 5],
         texels: &mut [Packet<f32>; 4],
     ) -> bool {
-        let Some(format) = PacketFormat::new(self) else {
+        let Some(format) = self.packets else {
             return false;
         };
         let plane = usize::try_from(mips.0[0]).ok();

@@ -1,11 +1,10 @@
 //! Decoding of sixteen texels at once, for every format except integers.
 
-use super::TexelView;
 use crate::texel::Corners;
-use estampe_format::{half, shared_exponent, small_float, srgb};
+use estampe_format::{TexelCodec, half, shared_exponent, small_float, srgb};
 use estampe_simd::{Bytes, Lanes, SimdBase, SimdCvtFloat, f32x16, i32x16, u32x16};
 use estampe_types::state::CompareFunction;
-use estampe_types::{Real, SampleType, TexelEncoding};
+use estampe_types::{Real, SampleType, TexelEncoding, TextureFormat};
 
 /// The kind of formats that share the general code.
 pub(super) const OTHERS: u8 = 0;
@@ -31,17 +30,13 @@ pub(crate) struct PacketFormat {
 
 impl PacketFormat {
     /// `None` for integers and stencil, which the scalar code reads lane by lane.
-    pub(crate) fn new(view: &TexelView) -> Option<Self> {
-        let stored = view.texture.stored_format();
-        let is_number = matches!(
-            view.codec.sample_type(),
-            SampleType::Float | SampleType::Depth
-        );
+    pub(crate) fn new(stored: TextureFormat, codec: &TexelCodec) -> Option<Self> {
+        let is_number = matches!(codec.sample_type(), SampleType::Float | SampleType::Depth);
         is_number.then_some(Self {
             encoding: stored.encoding(),
             is_srgb: stored.is_srgb(),
             components: stored.components(),
-            words: i32::try_from(view.codec.words()).unwrap_or(1),
+            words: i32::try_from(codec.words()).unwrap_or(1),
         })
     }
 

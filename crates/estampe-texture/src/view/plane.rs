@@ -1,10 +1,11 @@
 //! [`TexelView`]: how a texture's dimension, mip levels and layers are reinterpreted.
 
+use super::packet_texel::PacketFormat;
 use crate::TextureError;
 use estampe_format::TexelCodec;
 use estampe_simd::Level;
 use estampe_types::{
-    TexelData, TexelViewDescriptor, TextureAspect, TextureDimension, ViewDimension,
+    TexelData, TexelViewDescriptor, TextureAspect, TextureDimension, TextureFormat, ViewDimension,
 };
 use std::sync::Arc;
 
@@ -37,6 +38,10 @@ pub struct TexelView {
     /// The number of layers, or of cubes.
     pub(crate) layers: i32,
     pub(crate) codec: TexelCodec,
+    /// How packet code decodes the texels; `None` for integers.
+    pub(crate) packets: Option<PacketFormat>,
+    /// True if texels are four unorm bytes, in two dimensions, with one sample.
+    pub(crate) is_unorm8: bool,
     /// True if the view contains all layers and levels of the texture.
     pub(crate) is_whole: bool,
     /// The SIMD level of packet code.
@@ -117,12 +122,18 @@ impl TexelView {
         }
         let is_whole = is_whole && levels == texture.levels.len();
         let planes = (base..base + levels).map(|level| Plane::new(&texture, level));
+        let stored = texture.stored_format();
+        let codec = TexelCodec::of_aspect(stored, descriptor.aspect);
+        let is_unorm8 =
+            stored == TextureFormat::Rgba8Unorm && dimension == V::D2 && !is_multisampled;
         Ok(Self {
             planes: planes.collect(),
             dimension,
             base_layer: first,
             layers: layers.cast_signed(),
-            codec: TexelCodec::of_aspect(texture.stored_format(), descriptor.aspect),
+            packets: PacketFormat::new(stored, &codec),
+            codec,
+            is_unorm8,
             is_whole,
             level: Level::best(),
             texture,

@@ -62,7 +62,7 @@ impl SampledTexture {
             };
             Rgba8Texture::new(texture, sampler)
         });
-        let packets = PacketFormat::new(&view);
+        let packets = view.packets;
         let is_linear = is_linear(&view, &sampler);
         let level_table = packets
             .filter(|format| is_linear && format.is_of_bytes())
