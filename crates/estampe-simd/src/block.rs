@@ -146,6 +146,25 @@ mod x86 {
     const SPREAD: [u32; 16] = [0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3];
 
     #[inline(always)]
+    pub(crate) fn spread_rows_avx512(simd: Avx512, value: f32x16<Avx512>) -> [f32x16<Avx512>; 4] {
+        fearless_simd::kernel!(
+            #[inline(always)]
+            fn kernel(simd: Avx512, value: f32x16<Avx512>) -> [f32x16<Avx512>; 4] {
+                use core::arch::x86_64::*;
+                // One permutation across 128 bits, and four within.
+                let rows = _mm512_shuffle_f32x4::<0b01_01_01_01>(value.into(), value.into());
+                [
+                    _mm512_permute_ps::<0b00_00_00_00>(rows).simd_into(simd),
+                    _mm512_permute_ps::<0b01_01_01_01>(rows).simd_into(simd),
+                    _mm512_permute_ps::<0b10_10_10_10>(rows).simd_into(simd),
+                    _mm512_permute_ps::<0b11_11_11_11>(rows).simd_into(simd),
+                ]
+            }
+        );
+        kernel(simd, value)
+    }
+
+    #[inline(always)]
     pub(crate) fn columns_and_rows_avx512(
         simd: Avx512,
         columns: f32x16<Avx512>,
@@ -177,7 +196,8 @@ mod x86 {
             #[inline(always)]
             fn kernel(simd: Avx512, words: u32x8<Avx512>) -> f32x16<Avx512> {
                 use core::arch::x86_64::*;
-                _mm512_cvtph_ps(words.into()).simd_into(simd)
+                // The same as `_mm512_cvtph_ps` but for the form: this one may read memory.
+                _mm512_cvt_roundph_ps::<_MM_FROUND_CUR_DIRECTION>(words.into()).simd_into(simd)
             }
         );
         kernel(simd, u32x8::load_array_ref(simd, words))

@@ -170,6 +170,18 @@ pub trait Lanes: Simd {
         crate::block::permuted(self, value, order)
     }
 
+    /// The values of lanes 4 to 7, each in all lanes.
+    #[inline(always)]
+    fn spread_rows(self, value: f32x16<Self>) -> [f32x16<Self>; 4] {
+        let of = value.to_array();
+        [
+            f32x16::splat(self, of[4]),
+            f32x16::splat(self, of[5]),
+            f32x16::splat(self, of[6]),
+            f32x16::splat(self, of[7]),
+        ]
+    }
+
     /// What [`half_texels`](Self::half_texels) needs of the texels of columns in lanes 0 to 3, at
     /// the levels that use it.
     #[doc(hidden)]
@@ -469,6 +481,10 @@ mod x86 {
         #[inline(always)]
         fn spread_columns(self, value: f32x16<Self>) -> f32x16<Self> {
             crate::block::spread_avx512(self, value)
+        }
+        #[inline(always)]
+        fn spread_rows(self, value: f32x16<Self>) -> [f32x16<Self>; 4] {
+            crate::block::spread_rows_avx512(self, value)
         }
         #[inline(always)]
         fn places_of_texels(self, texel: u32x16<Self>) -> u32x16<Self> {

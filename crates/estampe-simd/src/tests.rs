@@ -412,7 +412,7 @@ fn a_packet_is_uniform_if_no_lane_differs() {
 
 /// Four rows of four texels, by channel and lane.
 #[inline(always)]
-fn of_block<S: Lanes>(s: S, rows: &[[f32; LANES]; 4]) -> [[f32; LANES]; 8] {
+fn of_block<S: Lanes>(s: S, rows: &[[f32; LANES]; 4]) -> [[f32; LANES]; 12] {
     let [a, b, c, d] = [
         f32x16::load_array_ref(s, &rows[0]),
         f32x16::load_array_ref(s, &rows[1]),
@@ -420,7 +420,12 @@ fn of_block<S: Lanes>(s: S, rows: &[[f32; LANES]; 4]) -> [[f32; LANES]; 8] {
         f32x16::load_array_ref(s, &rows[3]),
     ];
     let [r, g, blue, alpha] = s.channels_of_rows([a, b, c, d]);
+    let [first, second, third, fourth] = s.spread_rows(a);
     [
+        first.to_array(),
+        second.to_array(),
+        third.to_array(),
+        fourth.to_array(),
         r.to_array(),
         g.to_array(),
         blue.to_array(),
@@ -442,7 +447,11 @@ fn blocks_have_columns_rows_and_channels() {
         (0..LANES).find(is_there).unwrap()
     };
     for level in Level::all_available() {
-        let [channels @ .., row, column, spread, both] = dispatch!(level, s => of_block(s, &rows));
+        let of_level = dispatch!(level, s => of_block(s, &rows));
+        let [a, b, c, d, channels @ .., row, column, spread, both] = of_level;
+        for (at, of_row) in (4..).zip([a, b, c, d]) {
+            assert_eq!(of_row, [rows[0][at]; LANES], "{level:?} lane {at}");
+        }
         for lane in 0..LANES {
             let (x, y) = (usize::from(LANE_X[lane]), usize::from(LANE_Y[lane]));
             for (channel, of_channel) in channels.iter().enumerate() {

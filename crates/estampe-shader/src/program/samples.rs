@@ -35,7 +35,13 @@ fn sample_common(texture: &SampledTexture, access: &mut TextureAccess<'_>) -> bo
             sample_into(texture, &at(uv, PacketLod::Implicit), access)
         }
         (TextureQuery::Sample, LevelOfDetail::Zero) => {
-            sample_into(texture, &at(uv, PacketLod::Level), access)
+            let places = floats_of(access.operands()).as_chunks();
+            let colors = floats_of_mut(access.results_mut()).as_chunks_mut();
+            let ((each, []), (colors, [])) = (places, colors) else {
+                return false;
+            };
+            texture.sample_each(PacketLod::Level, each, colors);
+            true
         }
         (TextureQuery::Sample, LevelOfDetail::Gradient { .. }) => {
             let asked = with_gradients(floats_of(access.operands()));

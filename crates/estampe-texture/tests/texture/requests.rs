@@ -284,3 +284,83 @@ fn a_texture_at_several_places_is_sampled_as_at_each() {
         }
     }
 }
+
+/// Whether a number is NaN counts, not its bits: the order of operands decides which NaN results.
+fn numbers(colors: &[Packet<f32>]) -> Vec<[u32; LANES]> {
+    let number = |value: f32| match value.is_nan() {
+        true => f32::NAN.to_bits(),
+        false => value.to_bits(),
+    };
+    colors.iter().map(|packet| packet.0.map(number)).collect()
+}
+
+/// At a scale of one texel a pixel, texels are loaded as neighbours: any half floats, infinities
+/// and NaNs too, up to the last texel of the texture.
+#[test]
+fn neighbouring_texels_are_sampled_as_lanes_alone() {
+    let random = &mut Random::new(37);
+    let [mut neighbours, mut others] = [0; 2];
+    for address_mode in [AddressMode::ClampToEdge, AddressMode::Repeat] {
+        let sampler = SamplerDescriptor {
+            address_mode_u: address_mode,
+            address_mode_v: address_mode,
+            ..SamplerDescriptor::trilinear_repeat()
+        };
+        // A single level and layer, so that the image ends where the texture does.
+        let descriptor = TexelDescriptor::new_2d(32, 16, TextureFormat::Rgba16Float);
+        let created = descriptor.create(&[], MipGeneration::None, &Limits::default());
+        let mut image = created.expect("a small texture");
+        let words = image
+            .texels
+            .iter()
+            .map(|_| (random.bits() << 8) ^ random.bits());
+        image.texels = words.collect();
+        let texture = SampledTexture::new(TexelView::of(image).unwrap(), sampler).unwrap();
+        for level in Level::all_available() {
+            let texture = texture.clone().at_level(level);
+            let has_blocks = matches!(level.name(), "avx2" | "avx512");
+            for round in 0..600 {
+                let (column, row) = (random.bits() % 34, random.bits() % 18);
+                let shift = [0.5, random.unit()][round % 2];
+                let at = |first: u32, pixel: u8| first as f32 - 2.0 + f32::from(pixel) + shift;
+                let u = Packet(LANE_X.map(|pixel| at(column, pixel) / 32.0));
+                let v = Packet(LANE_Y.map(|pixel| at(row, pixel) / 16.0));
+                let request = PacketRequest {
+                    at: [&u, &v, PacketRequest::ZEROS.at[2]],
+                    lod: PacketLod::Level,
+                    ..PacketRequest::ZEROS
+                };
+                let are_neighbours = texture.samples_neighbours(&request);
+                // With another texel on each side, the four columns and rows are far from borders.
+                if (4..28).contains(&column) && (4..12).contains(&row) {
+                    assert_eq!(are_neighbours, has_blocks, "{level:?} {column} {row}");
+                }
+                neighbours += u32::from(are_neighbours);
+                others += u32::from(!are_neighbours);
+                let mut block = [Packet([7.0; LANES]); 4];
+                texture.sample_each(
+                    PacketLod::Level,
+                    &[[u, v]],
+                    std::slice::from_mut(&mut block),
+                );
+                for lane in 0..LANES {
+                    let [u, v] = [&u, &v].map(|of: &Packet<f32>| Packet([of.0[lane]; LANES]));
+                    let request = PacketRequest {
+                        count: 1,
+                        at: [&u, &v, PacketRequest::ZEROS.at[2]],
+                        ..request
+                    };
+                    let mut alone = [Packet([7.0; LANES]); 4];
+                    texture.sample_request(&request, &mut alone);
+                    for (block, alone) in numbers(&block).iter().zip(numbers(&alone)) {
+                        assert_eq!(
+                            block[lane], alone[0],
+                            "{level:?} {column} {row} lane {lane}"
+                        );
+                    }
+                }
+            }
+        }
+    }
+    assert!(neighbours > 400 && others > 400, "{neighbours} {others}");
+}

@@ -6,6 +6,9 @@
 //! rows of pixels need is filtered once. Only the results are put into the order of lanes. The
 //! arithmetic of each channel is that of the other cases, in the same order, so the bits are the
 //! same.
+//!
+//! At a scale of one texel a pixel, as in a blur, the left texels of four columns lie side by side,
+//! and the right ones too: each is a load that converts, without a permutation.
 
 use super::Packet;
 use crate::view::coordinates::{Answers, load, packet};
@@ -21,6 +24,12 @@ use estampe_types::{AddressMode, Real, ViewDimension};
 
 /// The words of a texel.
 const WORDS: usize = 2;
+
+/// The most rows of texels of a block.
+const MOST_LINES: usize = 9;
+
+/// The words of a row of five texels.
+const NEIGHBOURS: usize = 5 * WORDS;
 
 /// The lanes that hold the places of columns, then of rows.
 const PLACES: u16 = 0xFF;
@@ -50,17 +59,12 @@ impl SampledTexture {
             let Some(level) = BlockLevel::new(s, self, &self.view.planes[0]) else {
                 return all;
             };
-            let mut others = 0;
-            for (bit, ([u, v], colors)) in at.iter().zip(colors).enumerate() {
-                let [u, v] = [f32x16::load_array_ref(s, &u.0), f32x16::load_array_ref(s, &v.0)];
-                match level.sample(s, [u, v]) {
-                    Some([r, g, b, a]) => {
-                        *colors = [packet(r, 0), packet(g, 0), packet(b, 0), packet(a, 0)];
-                    }
-                    None => others |= 1 << bit,
-                }
+            // Clamping is most common, and needs few of the constants that wrapping does.
+            if level.mode == AddressMode::ClampToEdge {
+                level.sample_each::<true>(s, at, colors)
+            } else {
+                level.sample_each::<false>(s, at, colors)
             }
-            others
         }, others => all)
     }
 
@@ -72,6 +76,19 @@ impl SampledTexture {
         let at = [[*request.at[0], *request.at[1]]];
         let mut colors = [Answers::default()];
         self.sample_blocks(PacketLod::Level, &at, &mut colors) == 0
+    }
+
+    /// Returns true if the texels of a block are neighbours in the finest level.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn samples_neighbours(&self, request: &PacketRequest<'_>) -> bool {
+        dispatch!(@specialized_move self.level, s => {
+            let [u, v, _] = request.at;
+            let uv = [f32x16::load_array_ref(s, &u.0), f32x16::load_array_ref(s, &v.0)];
+            let level = BlockLevel::new(s, self, &self.view.planes[0]);
+            let footprint = level.and_then(|level| level.footprint::<false>(s, uv));
+            footprint.is_some_and(|footprint| footprint.are_neighbours)
+        }, others => false)
     }
 }
 
@@ -90,9 +107,11 @@ impl Packet<'_> {
             load(zero, self.lanes.at[0], 0),
             load(zero, self.lanes.at[1], 0),
         ];
-        let mut color = BlockLevel::new(s, self.of, &planes[at.min(last)])?.sample(s, uv)?;
+        let mut color =
+            BlockLevel::new(s, self.of, &planes[at.min(last)])?.sample::<false>(s, uv)?;
         if let Some(fraction) = fraction {
-            let coarse = BlockLevel::new(s, self.of, &planes[(at + 1).min(last)])?.sample(s, uv)?;
+            let coarse =
+                BlockLevel::new(s, self.of, &planes[(at + 1).min(last)])?.sample::<false>(s, uv)?;
             for k in 0..4 {
                 let mixed = color[k] + (coarse[k] - color[k]) * fraction;
                 color[k] = Real::select(fraction.gt(zero), mixed, color[k]);
@@ -142,16 +161,59 @@ impl<'a, S: SimdLanes> BlockLevel<'a, S> {
         })
     }
 
+    /// Samples at several places (u, v), as far as they are blocks; returns the others, of which
+    /// nothing is stored. `CLAMPS` says that the mode is to clamp.
+    #[inline(always)]
+    fn sample_each<const CLAMPS: bool>(
+        &self,
+        s: S,
+        at: &[[Values<f32>; 2]],
+        colors: &mut [Answers],
+    ) -> u32 {
+        let mut others = 0;
+        for (bit, ([u, v], colors)) in at.iter().zip(colors).enumerate() {
+            let uv = [
+                f32x16::load_array_ref(s, &u.0),
+                f32x16::load_array_ref(s, &v.0),
+            ];
+            match self.sample::<CLAMPS>(s, uv) {
+                Some([r, g, b, a]) => {
+                    *colors = [packet(r, 0), packet(g, 0), packet(b, 0), packet(a, 0)];
+                }
+                None => others |= 1 << bit,
+            }
+        }
+        others
+    }
+
     /// The colour of each lane at (u, v), unwrapped; `None` if the samples do not stand in columns
     /// and rows, a texel is across a border, or texels are far apart.
     #[inline(always)]
-    fn sample(&self, s: S, [u, v]: [f32x16<S>; 2]) -> Option<[f32x16<S>; 4]> {
+    fn sample<const CLAMPS: bool>(&self, s: S, uv: [f32x16<S>; 2]) -> Option<[f32x16<S>; 4]> {
+        let footprint = self.footprint::<CLAMPS>(s, uv)?;
+        let filtered = if footprint.are_neighbours {
+            self.neighbours(s, &footprint)?
+        } else {
+            self.apart(s, &footprint)?
+        };
+        Some(s.channels_of_rows(filtered))
+    }
+
+    /// Where the samples at (u, v) stand; `None` if they do not stand in columns and rows, or a
+    /// texel is across a border.
+    #[inline(always)]
+    fn footprint<const CLAMPS: bool>(&self, s: S, [u, v]: [f32x16<S>; 2]) -> Option<Footprint<S>> {
+        let mode = if CLAMPS {
+            AddressMode::ClampToEdge
+        } else {
+            self.mode
+        };
         let is_block = u.eq(s.first_row(u)) & v.eq(s.first_column(v));
         if s.bits_of_mask(is_block) != u16::MAX {
             return None;
         }
-        let wrapped = wrap(s.columns_and_rows(u, v), self.mode);
-        let place = place_by_lane(wrapped, self.lengths, self.last, self.mode);
+        let wrapped = wrap(s.columns_and_rows(u, v), mode);
+        let place = place_by_lane(wrapped, self.lengths, self.last, mode);
         let texel: i32x16<S> = place.texel;
         let last: i32x16<S> = self.last.to_int_within_range();
         let [at, end]: [u32x16<S>; 2] = [texel.bitcast(), last.bitcast()];
@@ -159,59 +221,99 @@ impl<'a, S: SimdLanes> BlockLevel<'a, S> {
         if s.bits_of_mask(has_next) & PLACES != PLACES {
             return None;
         }
-        let [first, _, _, fourth, rows @ ..] = texel.to_array();
-        // Columns go to the right or, in a mirrored texture, to the left.
-        let left = Ord::min(first, fourth);
-        let window = Window {
-            texels: self.texels,
-            begin: self.begin + left.cast_unsigned() as usize * WORDS,
-            row_words: self.row_words,
-            columns: Columns::new(s, texel, left)?,
-            weight: s.spread_columns(place.fraction),
-        };
-        let weights = place.fraction.to_array();
-        let (mut upper, mut lower) = (window.weight, window.weight);
-        let mut before = i32::MIN;
-        let mut filtered = [window.weight; 4];
+        Some(Footprint {
+            texel,
+            are_neighbours: are_neighbours(s, at),
+            across: s.spread_columns(place.fraction),
+            down: s.spread_rows(place.fraction),
+        })
+    }
+
+    /// The four rows of texels of a block whose texels are neighbours, in five rows of five; `None`
+    /// if the level does not decode half floats.
+    #[inline(always)]
+    fn neighbours(&self, s: S, footprint: &Footprint<S>) -> Option<[f32x16<S>; 4]> {
+        let (across, down) = (footprint.across, footprint.down);
+        let [column, _, _, _, row, ..] = footprint.texel.to_array();
+        let first = row.cast_unsigned() as usize * self.row_words;
+        let first = first + column.cast_unsigned() as usize * WORDS;
+        let mut left = self.texels.get(self.begin + first..)?;
+        let mut upper = across;
+        let mut filtered = [across; 4];
         let mut row = 0;
-        while row < 4 {
-            let at = rows[row];
-            if at != before {
-                upper = if at == before.wrapping_add(1) {
-                    lower
-                } else {
-                    window.row(s, at)?
-                };
-                lower = window.row(s, at + 1)?;
-                before = at;
+        while row < 5 {
+            if row > 0 {
+                left = left.get(self.row_words..)?;
             }
-            let down: f32x16<S> = SimdBase::splat(s, weights[4 + row]);
-            filtered[row] = upper + (lower - upper) * down;
+            let words: &[u32; NEIGHBOURS] = left.first_chunk()?;
+            let right = s.row_of_halves(words.last_chunk()?)?;
+            let left = s.row_of_halves(words.first_chunk()?)?;
+            let lower = left + (right - left) * across;
+            if row > 0 {
+                filtered[row - 1] = upper + (lower - upper) * down[row - 1];
+            }
+            upper = lower;
             row += 1;
         }
-        Some(s.channels_of_rows(filtered))
+        Some(filtered)
     }
-}
 
-/// Eight columns of a level, among which those of a block are.
-struct Window<'a, S: SimdLanes> {
-    texels: &'a [u32],
-    /// The first word of the first row.
-    begin: usize,
-    row_words: usize,
-    columns: Columns<S>,
-    /// The weight of each column's right texel, four times.
-    weight: f32x16<S>,
-}
-
-impl<S: SimdLanes> Window<'_, S> {
-    /// A row's four texels between the left and the right ones; `None` if a part of the window is
-    /// not in memory, which may be so at the end of the texture. The row is not negative.
+    /// The four rows of texels of any other block: the columns are among eight neighbours, and the
+    /// rows, each filtered once, among a few.
     #[inline(always)]
-    fn row(&self, s: S, y: i32) -> Option<f32x16<S>> {
-        let at = self.begin + y.cast_unsigned() as usize * self.row_words;
-        let window = self.texels.get(at..)?.first_chunk()?;
-        let [left, right] = s.half_texels(window, &self.columns)?;
-        Some(left + (right - left) * self.weight)
+    fn apart(&self, s: S, footprint: &Footprint<S>) -> Option<[f32x16<S>; 4]> {
+        let (across, down) = (footprint.across, footprint.down);
+        let [first, _, _, fourth, rows @ ..] = footprint.texel.to_array();
+        // Columns go to the right or, in a mirrored texture, to the left; rows likewise.
+        let left = Ord::min(first, fourth);
+        let top = Ord::min(rows[0], rows[3]);
+        let bottom = Ord::max(rows[0], rows[3]) + 1;
+        let columns = Columns::new(s, footprint.texel, left)?;
+        let before = top.cast_unsigned() as usize * self.row_words;
+        let before = before + left.cast_unsigned() as usize * WORDS;
+        let mut texels = self.texels.get(self.begin + before..)?;
+        let mut lines = [across; MOST_LINES];
+        let lines = lines.get_mut(..=(bottom - top).cast_unsigned() as usize)?;
+        for (at, line) in lines.iter_mut().enumerate() {
+            if at > 0 {
+                texels = texels.get(self.row_words..)?;
+            }
+            // At the end of the texture a part of the window may not be in memory.
+            let [left, right] = s.half_texels(texels.first_chunk()?, &columns)?;
+            *line = left + (right - left) * across;
+        }
+        let mut filtered = [across; 4];
+        let mut row = 0;
+        while row < 4 {
+            // In a mirrored texture, a row between may be beyond the first and the last.
+            let at = rows[row].wrapping_sub(top).cast_unsigned() as usize;
+            let &[upper, lower] = lines.get(at..)?.first_chunk()?;
+            filtered[row] = upper + (lower - upper) * down[row];
+            row += 1;
+        }
+        Some(filtered)
     }
+}
+
+/// Where the samples of a block stand in a level.
+struct Footprint<S: SimdLanes> {
+    /// The left texel of each column, then the upper one of each row, in the order of
+    /// [`columns_and_rows`](SimdLanes::columns_and_rows). Texels have a neighbour.
+    texel: i32x16<S>,
+    /// True if columns and rows are each four neighbours.
+    are_neighbours: bool,
+    /// The weight of each column's right texel, four times.
+    across: f32x16<S>,
+    /// The weight of each row's lower texels.
+    down: [f32x16<S>; 4],
+}
+
+/// True if columns and rows, in the order of [`columns_and_rows`](SimdLanes::columns_and_rows), are
+/// each four neighbours.
+#[inline(always)]
+fn are_neighbours<S: SimdLanes>(s: S, at: u32x16<S>) -> bool {
+    let first = at - u32x16::load_array(s, [0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3]);
+    let order = u32x16::load_array(s, [0, 0, 0, 0, 4, 4, 4, 4, 0, 0, 0, 0, 4, 4, 4, 4]);
+    let is_same: mask32x16<S> = first.simd_eq(s.permute(first, order));
+    s.bits_of_mask(is_same) & PLACES == PLACES
 }
