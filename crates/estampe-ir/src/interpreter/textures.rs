@@ -198,6 +198,9 @@ pub enum Common {
     Coordinates,
     /// All compare texels of one texture with the same depth, at two coordinates each.
     Reference,
+    /// All load texels at the same two coordinates, in the same level of one sample each: they have
+    /// the same operands, which are there once.
+    Texels,
     /// All sample one texture with one sampler, at two coordinates each, in the finest level or all
     /// with the level of detail of the quad.
     Texture,
@@ -225,6 +228,8 @@ impl Common {
             );
             op.query == TextureQuery::SampleCompare && !is_given && is_flat(op)
         };
+        let loads =
+            |op: &TextureOp| op.query == TextureQuery::Load && op.sample.is_none() && is_flat(op);
         let samples = |op: &TextureOp| {
             op.query == TextureQuery::Sample
                 && matches!(op.level, LevelOfDetail::Zero | LevelOfDetail::Implicit)
@@ -237,6 +242,8 @@ impl Common {
         };
         if ops.iter().all(is_plain) && others.iter().all(is_same) {
             Self::Coordinates
+        } else if ops.iter().all(loads) && others.iter().all(is_same) {
+            Self::Texels
         } else if ops.iter().all(compares) && others.iter().all(is_like) {
             Self::Reference
         } else if ops.iter().all(samples)
@@ -248,6 +255,15 @@ impl Common {
         } else {
             Self::Nothing
         }
+    }
+}
+
+impl Common {
+    /// True if all have the same operands, which are there once.
+    #[inline]
+    #[must_use]
+    pub fn shares_operands(self) -> bool {
+        matches!(self, Self::Coordinates | Self::Texels)
     }
 }
 
@@ -272,8 +288,8 @@ pub struct TextureAccesses<'a> {
 
 impl<'a> TextureAccesses<'a> {
     /// Accesses in the lanes of a mask; operands and results are those of each
-    /// [`TextureAccess`], one after the other. Of [`Common::Coordinates`], the operands are those
-    /// of the first.
+    /// [`TextureAccess`], one after the other; the operands of the first alone if all
+    /// [share](Common::shares_operands) them.
     #[must_use]
     pub fn new(
         (ops, common): (&'a [TextureOp], Common),
@@ -300,7 +316,7 @@ impl<'a> TextureAccesses<'a> {
         let (op, ops) = self.ops.split_first()?;
         self.ops = ops;
         let (operands, others) = self.operands.split_at_checked(op.words())?;
-        if self.common != Common::Coordinates {
+        if !self.common.shares_operands() {
             self.operands = others;
         }
         let results = std::mem::take(&mut self.results);
@@ -315,6 +331,13 @@ impl<'a> TextureAccesses<'a> {
     #[must_use]
     pub fn mask(&self) -> u16 {
         self.mask[0]
+    }
+
+    /// The SIMD level of the run.
+    #[inline]
+    #[must_use]
+    pub fn level(&self) -> Level {
+        self.level
     }
 
     /// All operands, and all results to set.
@@ -393,6 +416,26 @@ mod tests {
             by_quads,
         ] {
             let ops = [maps[0].clone(), other];
+            assert_eq!(Common::of(&ops), Common::Nothing, "{ops:?}");
+        }
+    }
+
+    #[test]
+    fn loads_share_coordinates_and_a_level() {
+        let load = |texture: u32, at: [u32; 2], level: u32| TextureOp {
+            query: TextureQuery::Load,
+            sampler: None,
+            ..sample(texture, at, LevelOfDetail::Explicit(Value(level)))
+        };
+        let texels = [load(0, [1, 2], 3), load(1, [1, 2], 3), load(0, [1, 2], 3)];
+        assert_eq!(Common::of(&texels), Common::Texels);
+        let mut of_sample = load(1, [1, 2], 3);
+        of_sample.sample = Some(Value(4));
+        let mut beside = load(1, [1, 2], 3);
+        beside.offset[0] = 1;
+        let others = [load(1, [1, 3], 3), load(1, [1, 2], 4), of_sample, beside];
+        for other in others {
+            let ops = [texels[0].clone(), other];
             assert_eq!(Common::of(&ops), Common::Nothing, "{ops:?}");
         }
     }

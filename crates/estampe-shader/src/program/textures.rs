@@ -113,6 +113,7 @@ impl Textures for BoundTextures<'_> {
             }
             Common::Reference => compare_all(first, &mut accesses),
             Common::Texture => sample_each(first, &mut accesses),
+            Common::Texels => self.load_all(&mut accesses),
             Common::Nothing => false,
         };
         if !is_done {
@@ -170,6 +171,33 @@ impl BoundTextures<'_> {
             floats(s, access.stored(3), 0),
         ];
         store_unorm8(s, texture, ([x, y], mask), channels)
+    }
+
+    /// Loads a packet of texels of several textures at the same coordinates; false if they cannot
+    /// be loaded together.
+    fn load_all(&self, accesses: &mut TextureAccesses<'_>) -> bool {
+        let ops = accesses.ops;
+        let Some(first) = ops.first().and_then(|op| self.loaded(op.texture)) else {
+            return false;
+        };
+        let mut views = [first; MOST];
+        for (to, op) in views.iter_mut().zip(ops) {
+            let Some(view) = self.loaded(op.texture) else {
+                return false;
+            };
+            *to = view;
+        }
+        let level = accesses.level();
+        let (operands, results) = accesses.all();
+        let places = match ints_of(operands) {
+            [x, y] => [x, y, &ZEROS],
+            [x, y, mip] => [x, y, mip],
+            _ => return false,
+        };
+        let (texels, _) = floats_of_mut(results).as_chunks_mut();
+        views
+            .get(..ops.len())
+            .is_some_and(|views| TexelView::fetch_blocks(views, level, places, texels))
     }
 
     fn slot(&self, access: &TextureAccess<'_>) -> (u32, u32) {

@@ -5,6 +5,7 @@
 
 use super::Selector;
 use super::operands::Source;
+use super::plan::Plan;
 use crate::CompileError;
 use crate::encoder::vector_op;
 use crate::frame::{MASK_ARGUMENT, MASK_RESULT, PACKET, SECOND_MASK_ARGUMENT, displacement};
@@ -106,7 +107,7 @@ const MOST_JOINED: usize = 16;
 const MOST_ADJACENT: usize = 64;
 
 /// The most packets that a call of the kernel needs, for so many packets of lanes.
-pub(super) fn most_packets(kernel: &Kernel, lanes: usize) -> u32 {
+pub(super) fn most_packets(kernel: &Kernel, plan: &Plan, lanes: usize) -> u32 {
     let of_block = |ops: &[(Op, Value)]| {
         let (mut most, mut joined) = (0, 0);
         for (op, _) in ops {
@@ -114,7 +115,7 @@ pub(super) fn most_packets(kernel: &Kernel, lanes: usize) -> u32 {
                 continue;
             };
             most = most.max(served.operands + served.results);
-            joined += usize::from(can_join(op));
+            joined += usize::from(plan.can_join(op));
         }
         most * joined.clamp(1, MOST_JOINED) * lanes
     };
@@ -122,16 +123,10 @@ pub(super) fn most_packets(kernel: &Kernel, lanes: usize) -> u32 {
     u32::try_from(most.max().unwrap_or(0)).unwrap_or(u32::MAX)
 }
 
-/// True if the operation may be one call together with others: it accesses a texture with a
-/// sampler, which nothing changes while the kernel runs.
-pub(super) fn can_join(op: &Op) -> bool {
-    matches!(op, Op::Texture(op) if op.sampler.is_some())
-}
-
 /// How many operations, from the first on, are accesses to textures in the same lanes of which none
 /// needs another's result: at least one.
-pub(super) fn joined(ops: &[&(Op, Value)]) -> usize {
-    let Some((op, _)) = ops.first().filter(|(op, _)| can_join(op)) else {
+pub(super) fn joined(plan: &Plan, ops: &[&(Op, Value)]) -> usize {
+    let Some((op, _)) = ops.first().filter(|(op, _)| plan.can_join(op)) else {
         return 1;
     };
     let mask = op.clone().mask_mut().copied();
@@ -140,7 +135,7 @@ pub(super) fn joined(ops: &[&(Op, Value)]) -> usize {
     for (op, first) in ops.iter().take(MOST_ADJACENT) {
         let mut needs_another = false;
         op.each_operand(|value, _| needs_another |= results.contains(&value));
-        if !can_join(op) || op.clone().mask_mut().copied() != mask || needs_another {
+        if !plan.can_join(op) || op.clone().mask_mut().copied() != mask || needs_another {
             break;
         }
         results.extend(first.and_next(op.results().len()));
@@ -204,7 +199,7 @@ impl Selector<'_> {
             1 => Common::Nothing,
             _ => Common::of(&textures),
         };
-        if common == Common::Coordinates {
+        if common.shares_operands() {
             // All have the operands of the first.
             operands = textures.first().map_or(0, TextureOp::words);
         }
@@ -232,9 +227,9 @@ impl Selector<'_> {
             let packet = u32::try_from(packet).unwrap_or(0);
             displacement(self.frame.arguments + packet * PACKET)
         };
-        // Nothing sees in which order textures are sampled: a call serves all packets of the pass.
+        // Nothing sees in which order textures are read: a call serves all packets of the pass.
         let passes = self.packets_of_pass();
-        if ops.iter().all(|(op, _)| can_join(op)) {
+        if ops.iter().all(|(op, _)| self.plan.can_join(op)) {
             served.lanes = passes.len();
         }
         let (lanes, inputs) = (served.lanes, served.operands);

@@ -92,7 +92,7 @@ impl Selector<'_> {
                     let ops: Vec<&(Op, Value)> = ops.collect();
                     let mut left = &ops[..];
                     while let Some(&(op, first)) = left.first() {
-                        let count = calls::joined(left);
+                        let count = calls::joined(&self.plan, left);
                         let (together, others) = left.split_at(count);
                         left = others;
                         if count == 1 {

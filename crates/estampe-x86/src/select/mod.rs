@@ -138,7 +138,7 @@ pub(crate) fn select(
         Isa::Avx2 => 32,
         Isa::Avx512 => 4,
     };
-    let packets = calls::most_packets(kernel, packets_of_pass);
+    let packets = calls::most_packets(kernel, &plan, packets_of_pass);
     let is_stored = |array: u32| plan.is_array_stored(array);
     let frame = Frame::new(
         kernel,

@@ -6,6 +6,7 @@
 
 use estampe_ir::interface::Input;
 use estampe_ir::lanes::{Kernel, Terminator};
+use estampe_ir::op::TextureQuery;
 use estampe_ir::{Op, Value};
 
 /// The blocks and values of a kernel.
@@ -20,6 +21,8 @@ pub(crate) struct Plan {
     /// Values that are the same in all lanes, whether those run or not.
     is_splat: Vec<bool>,
     is_hoisted: Vec<bool>,
+    /// True if the kernel stores texels.
+    stores_texels: bool,
     /// Arrays to which something is stored. The others are tables of constants.
     is_array_stored: Vec<bool>,
     /// Masks in which a quad has all of its lanes or none of those that run.
@@ -37,6 +40,7 @@ impl Plan {
             is_needed: vec![false; values],
             is_splat: vec![true; values],
             is_hoisted: vec![false; values],
+            stores_texels: stores_texels(kernel),
             is_array_stored: vec![false; kernel.interface.locals.len()],
             has_whole_quads: vec![false; values],
             constants: vec![None; values],
@@ -82,6 +86,15 @@ impl Plan {
     pub(crate) fn is_array_stored(&self, array: u32) -> bool {
         let is_stored = self.is_array_stored.get(array as usize);
         is_stored.is_none_or(|&is_stored| is_stored)
+    }
+
+    /// True if the operation may be one call together with others: it reads a texture which nothing
+    /// changes while the kernel runs.
+    pub(crate) fn can_join(&self, op: &Op) -> bool {
+        let Op::Texture(op) = op else {
+            return false;
+        };
+        op.sampler.is_some() || op.query == TextureQuery::Load && !self.stores_texels
     }
 
     /// The word that a value always is.
@@ -222,4 +235,10 @@ impl Plan {
             }
         }
     }
+}
+
+/// True if an operation of the kernel stores to a texture, which may be bound as another, too.
+fn stores_texels(kernel: &Kernel) -> bool {
+    let mut ops = kernel.blocks.iter().flat_map(|block| &block.ops);
+    ops.any(|(op, _)| matches!(op, Op::Texture(op) if op.query == TextureQuery::Store))
 }

@@ -9,7 +9,6 @@
 //! first what they need, then they themselves, then the rest, of which few values live across the
 //! call.
 
-use super::calls::can_join;
 use super::plan::Plan;
 use crate::Isa;
 use estampe_ir::lanes::{Kernel, Terminator};
@@ -249,7 +248,7 @@ impl List {
             list.uses[node].sort_unstable();
             list.uses[node].dedup();
             let is_free = op.is_pure(is_written)
-                || can_join(op)
+                || scheduler.plan.can_join(op)
                 || matches!(
                     op,
                     Op::Input(_)
@@ -304,7 +303,8 @@ impl List {
             list.heights[node] = list.latencies[node] + after.unwrap_or(0);
             let after = list.followers[node].iter();
             let after = after.map(|&follower| list.turns[follower as usize]).max();
-            list.turns[node] = turn(can_join(&ops[nodes[node]].0), after.unwrap_or(0));
+            let is_access = scheduler.plan.can_join(&ops[nodes[node]].0);
+            list.turns[node] = turn(is_access, after.unwrap_or(0));
         }
         list
     }

@@ -132,7 +132,7 @@ fn sampling_together() -> Kernel {
         b.op(Op::Texture(Box::new(TextureOp {
             query,
             texture,
-            sampler: Some(texture),
+            sampler: (query != TextureQuery::Load).then_some(texture),
             coordinates: at.to_vec(),
             layer: None,
             offset: [0; 3],
@@ -159,6 +159,8 @@ fn sampling_together() -> Kernel {
         texels.extend(access(&mut b, (compare, 1), [u, at], LevelOfDetail::Zero));
         texels.extend(access(&mut b, asked, [beside, v], by_quads.clone()));
         texels.extend(access(&mut b, asked, [u, v], gradient.clone()));
+        let load = (TextureQuery::Load, texture);
+        texels.extend(access(&mut b, load, [u, v], LevelOfDetail::Explicit(depth)));
     }
     let nothing = b.word(0);
     let select = |texel: &Value| b.select(mask, *texel, nothing);
@@ -175,7 +177,11 @@ fn accesses_that_have_something_in_common_are_asked_together() {
     let together = told.together.into_inner().unwrap();
     if Isa::best().is_some() {
         // By quads, and by gradients.
-        for (asked, calls) in [((Common::Coordinates, 3), 2), ((Common::Reference, 3), 1)] {
+        for (asked, calls) in [
+            ((Common::Coordinates, 3), 2),
+            ((Common::Reference, 3), 1),
+            ((Common::Texels, 3), 1),
+        ] {
             let count = together.iter().filter(|found| **found == asked).count();
             assert!(count >= calls * PACKETS, "{asked:?}: {together:?}");
         }
