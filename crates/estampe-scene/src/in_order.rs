@@ -229,7 +229,7 @@ mod tests {
             },
             |(number, list)| list.push(*number * *number),
             |(number, list)| {
-                taken.extend(list.drain(..));
+                taken.append(list);
                 if refused == Some(*number) {
                     Err(*number)
                 } else {

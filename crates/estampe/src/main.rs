@@ -134,8 +134,8 @@ fn parsed(command: clap::Command, words: impl IntoIterator<Item = OsString>) -> 
 }
 
 /// The parser. Every option with a value takes negative numbers, so that its own parser can say
-/// what is wrong with them. For `render`, which draws small pictures in some milliseconds, it is that
-/// of this command alone: the options of all commands take a millisecond to make.
+/// what is wrong with them. For `render`, which draws small pictures in some milliseconds, it is
+/// that of this command alone: the options of all commands take a millisecond to make.
 fn command(name: Option<&str>) -> clap::Command {
     fn with_negative_numbers(command: clap::Command) -> clap::Command {
         let command = command.mut_args(|arg| {

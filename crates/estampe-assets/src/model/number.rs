@@ -3,9 +3,10 @@
 //! A decimal is w · 10^e with an integer w of up to 19 digits. The idea is Clinger's (1990):
 //! compute d = w · 10^e in f64 and round that to f32. Here w, 10^e and the product are each rounded
 //! once, each time by a unit in the last place of d at most, so d is off by little more than 3 such
-//! units. Rounding d to f32 gives the right answer unless a point midway between two f32 lies within that error: the 29 bits of d that f32
-//! drops are then near 1000…0. Those cases (one in ten million), and results outside f32's normal
-//! range, go to the standard library, which is exact and slow.
+//! units. Rounding d to f32 gives the right answer unless a point midway between two f32 lies
+//! within that error: the 29 bits of d that f32 drops are then near 1000…0. Those cases (one in ten
+//! million), and results outside f32's normal range, go to the standard library, which is exact and
+//! slow.
 
 /// Powers of ten, each the f64 nearest to it.
 const POWERS_OF_TEN: [f64; 39] = [

@@ -124,8 +124,9 @@ impl Candidates {
             let [low, high] = ends.map(|end| (at - end) / distance);
             let [right, left] = bounds;
             // Comparisons with NaN, from points that are not finite, keep the point.
-            !(low < right[0].0 - right[0].1 && high < right[1].0 - right[1].1)
-                || !(low > left[0].0 + left[0].1 && high > left[1].0 + left[1].1)
+            let is_below = low < right[0].0 - right[0].1 && high < right[1].0 - right[1].1;
+            let is_above = low > left[0].0 + left[0].1 && high > left[1].0 + left[1].1;
+            !(is_below && is_above)
         };
         let of_piece = |piece: &[DVec3]| -> Vec<(f64, f64)> {
             piece.iter().map(&seen).filter(can_be_furthest).collect()

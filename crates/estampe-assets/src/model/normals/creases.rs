@@ -154,9 +154,9 @@ impl CornerNormals {
 
 /// The normalised sum of the weighted normals around each point.
 ///
-/// Each thread has a range of points and reads the triangles for it, so sums are in the order of the
-/// triangles for any number of threads. It leaves out pieces without points of its range, which are
-/// most in meshes whose neighbouring triangles have neighbouring points.
+/// Each thread has a range of points and reads the triangles for it, so sums are in the order of
+/// the triangles for any number of threads. It leaves out pieces without points of its range, which
+/// are most in meshes whose neighbouring triangles have neighbouring points.
 fn smooth_normals(
     triangles: &[[u32; 3]],
     point_count: usize,

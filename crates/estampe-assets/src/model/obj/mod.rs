@@ -11,8 +11,8 @@
 //! A mesh is an object (`o`); in files without objects, a group (`g`). Inside a mesh, the triangles
 //! are sorted by material, so that each material is one surface even if `usemtl` alternates.
 //!
-//! In large files, several threads read plain lines ahead, see `plain`. The text may be a stream, of
-//! which few windows are in memory at a time.
+//! In large files, several threads read plain lines ahead, see `plain`. The text may be a stream,
+//! of which few windows are in memory at a time.
 //!
 //! Tolerance: a face that refers to a missing vertex is omitted, and a missing texture coordinate
 //! or normal is ignored, each with a warning that names the line. Indices may refer to later

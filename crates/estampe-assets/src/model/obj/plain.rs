@@ -2,10 +2,11 @@
 //!
 //! Nearly all lines of a large file have four forms: `v x y z`, `vt u v`, `vn x y z`, and `f` with
 //! three corners of indices from 1. Their meaning does not depend on the lines before them, so
-//! threads read runs of them, window by window; any other line, and any irregularity, ends a run. The reader
-//! processes the statements in order. At the start of a run it takes the whole run at once, if the
-//! run's faces refer to existing vertices and the limits allow it. Otherwise it reads the lines
-//! itself. Errors, warnings and the order of elements are therefore decided by the reader alone.
+//! threads read runs of them, window by window; any other line, and any irregularity, ends a run.
+//! The reader processes the statements in order. At the start of a run it takes the whole run at
+//! once, if the run's faces refer to existing vertices and the limits allow it. Otherwise it reads
+//! the lines itself. Errors, warnings and the order of elements are therefore decided by the reader
+//! alone.
 
 use super::elements::{ABSENT, Counts, push_attribute};
 use super::reader::Contents;
