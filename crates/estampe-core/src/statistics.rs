@@ -42,6 +42,10 @@ pub struct Statistics {
     /// Covered samples of small triangles that were tested as lists. They depend on the SIMD level.
     #[doc(hidden)]
     pub small_triangle_pixels: u64,
+    /// Fragments of small triangles that were drawn in order as lists; and the packets that these
+    /// began. They depend on the SIMD level.
+    #[doc(hidden)]
+    pub fragments_listed_in_order: [u64; 2],
     /// Large triangles whose edges were set up sixteen at a time, once for each tile. They depend
     /// on the SIMD level.
     #[doc(hidden)]
@@ -83,10 +87,19 @@ impl std::ops::AddAssign for Statistics {
         self.primitives_binned += other.primitives_binned;
         self.fragments_shaded += other.fragments_shaded;
         self.fragments_of_shared_colors += other.fragments_of_shared_colors;
-        for (count, other) in
-            (self.fragments_across_triangles.iter_mut()).zip(other.fragments_across_triangles)
-        {
-            *count += other;
+        for (counts, others) in [
+            (
+                &mut self.fragments_across_triangles,
+                other.fragments_across_triangles,
+            ),
+            (
+                &mut self.fragments_listed_in_order,
+                other.fragments_listed_in_order,
+            ),
+        ] {
+            for (count, other) in counts.iter_mut().zip(others) {
+                *count += other;
+            }
         }
         self.small_triangle_pixels += other.small_triangle_pixels;
         self.triangles_set_up_in_lanes += other.triangles_set_up_in_lanes;

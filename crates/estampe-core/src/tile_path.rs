@@ -27,7 +27,8 @@ pub enum TilePath {
     VisibilityQuads,
     /// In order; blocks of 16×16 pixels that a triangle covers whole are blended from its planes.
     InOrderBlocks,
-    /// In order; packets hold 4×4 pixels of one primitive, or four quads of several.
+    /// In order; packets hold 4×4 pixels of one primitive, or four quads of several, or, if the
+    /// shader takes no derivatives, sixteen pixels of several triangles.
     InOrderQuads,
     /// In order; packets hold 4×4 pixels of one primitive: smooth lines, shading by sample, inputs
     /// that depend on coverage.

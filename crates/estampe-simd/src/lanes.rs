@@ -59,6 +59,14 @@ pub trait Lanes: Simd {
     /// table reads as zeros.
     fn gather(self, table: &[u32], index: u32x16<Self>) -> u32x16<Self>;
 
+    /// Stores the lanes of a mask: `table[index] = value`, lane by lane, so that of equal indices
+    /// the last one counts. Lanes whose index is beyond the table are left out; elements from 2³¹
+    /// on are not reachable.
+    #[inline(always)]
+    fn scatter(self, table: &mut [u32], index: u32x16<Self>, values: u32x16<Self>, lanes: u16) {
+        crate::gather::scatter_by_lane(table, index, values, lanes);
+    }
+
     /// `table[index]` in each lane, for an index below 256; for any other index, some element.
     #[inline(always)]
     fn lookup(self, table: &[u32; 256], index: u32x16<Self>) -> u32x16<Self> {
@@ -513,6 +521,10 @@ mod x86 {
         #[inline(always)]
         fn lookup_sixteen(self, table: &[u32; 16], index: u32x16<Self>) -> u32x16<Self> {
             crate::lookup::sixteen_avx512(self, table, index)
+        }
+        #[inline(always)]
+        fn scatter(self, table: &mut [u32], index: u32x16<Self>, values: u32x16<Self>, lanes: u16) {
+            crate::gather::scatter_avx512(self, table, index, values, lanes);
         }
         #[inline(always)]
         fn lookup(self, table: &[u32; 256], index: u32x16<Self>) -> u32x16<Self> {

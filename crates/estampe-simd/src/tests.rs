@@ -134,6 +134,50 @@ fn gather_clamps_every_index() {
 }
 
 #[inline(always)]
+fn scatter<S: Lanes>(s: S, table: &mut [u32], index: [u32; LANES], lanes: u16) {
+    let values = u32x16::load_array(s, [100; LANES]) + u32x16::load_array(s, NUMBERS);
+    s.scatter(table, u32x16::load_array(s, index), values, lanes);
+}
+
+const NUMBERS: [u32; LANES] = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15];
+
+#[test]
+fn scatter_stores_the_last_of_equal_indices_and_leaves_out_those_beyond() {
+    let index = [
+        0,
+        1,
+        36,
+        37,
+        38,
+        1 << 30,
+        1 << 31,
+        u32::MAX,
+        5,
+        9,
+        5,
+        7,
+        35,
+        9,
+        5,
+        3,
+    ];
+    for level in Level::all_available() {
+        for lanes in [u16::MAX, 0, 0xA5C3, 0x0410, 1 << 8] {
+            let mut expected = [7; 37];
+            for (lane, at) in index.into_iter().enumerate() {
+                if let (1, Some(to)) = (lanes >> lane & 1, expected.get_mut(at as usize)) {
+                    *to = 100 + NUMBERS[lane];
+                }
+            }
+            let mut table = [7; 37];
+            dispatch!(level, s => scatter(s, &mut table, index, lanes));
+            assert_eq!(table, expected, "{level:?} {lanes:#x}");
+        }
+        dispatch!(level, s => scatter(s, &mut [], index, u16::MAX));
+    }
+}
+
+#[inline(always)]
 fn looked_up_in_sixteen<S: Lanes>(s: S, table: &[u32; 16], index: [u32; 16]) -> [u32; 16] {
     s.lookup_sixteen(table, u32x16::load_array(s, index))
         .to_array()

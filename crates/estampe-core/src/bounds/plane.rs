@@ -34,4 +34,11 @@ impl PlanePacket {
             dy: self.dy[lane],
         }
     }
+
+    #[inline(always)]
+    pub(super) fn set(&mut self, lane: usize, plane: Plane) {
+        self.origin[lane] = plane.origin;
+        self.dx[lane] = plane.dx;
+        self.dy[lane] = plane.dy;
+    }
 }

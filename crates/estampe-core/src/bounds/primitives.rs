@@ -90,6 +90,31 @@ impl TrianglePacket {
     }
 }
 
+impl TrianglePacket {
+    /// Sets a lane.
+    #[inline(always)]
+    pub(crate) fn set(&mut self, lane: usize, triangle: &Triangle) {
+        for corner in 0..3 {
+            self.x[corner][lane] = triangle.x[corner];
+            self.y[corner][lane] = triangle.y[corner];
+            self.vertex[corner][lane] = triangle.vertex[corner];
+            self.iw_at[corner][lane] = triangle.iw_at[corner];
+        }
+        self.provoking[lane] = triangle.provoking;
+        self.z.set(lane, triangle.z);
+        self.iw.set(lane, triangle.iw);
+        self.r[lane] = triangle.r;
+        let bit = 1 << lane;
+        for (mask, is_in) in [
+            (&mut self.clockwise, triangle.clockwise),
+            (&mut self.front, triangle.front),
+            (&mut self.equal_w, triangle.equal_w),
+        ] {
+            *mask = *mask & !bit | u16::from(is_in) << lane;
+        }
+    }
+}
+
 /// One triangle, set up: a lane of a [`TrianglePacket`].
 ///
 /// A lane's values are in 21 cache lines of its packet, those of a `Triangle` in two.

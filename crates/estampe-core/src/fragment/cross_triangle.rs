@@ -182,6 +182,25 @@ impl CrossPlanes {
         }
     }
 
+    /// The triangles in `lanes` whose varyings have the same bits at all pixels.
+    #[inline(always)]
+    pub(crate) fn constant<S: Lanes>(&self, s: S, lanes: u16, modes: &[Interpolation]) -> u16 {
+        let zero = <f32x16<S> as SimdBase<S>>::splat(s, 0.0);
+        let negative_zero = <u32x16<S> as SimdBase<S>>::splat(s, 1 << 31);
+        let mut constant = s.mask_from_bits(self.equal_ws & lanes);
+        let planes = self.corners[0].iter().zip(self.dx.iter().zip(&self.dy));
+        for (mode, (origin, (dx, dy))) in modes.iter().zip(planes) {
+            // A sum with 0 would turn −0 into 0.
+            let origin: u32x16<S> = f32x16::load_array_ref(s, &origin.0).bitcast();
+            constant &= !origin.simd_eq(negative_zero);
+            if *mode != Interpolation::Flat {
+                constant &= f32x16::load_array_ref(s, &dx.0).simd_eq(zero);
+                constant &= f32x16::load_array_ref(s, &dy.0).simd_eq(zero);
+            }
+        }
+        s.bits_of_mask(constant)
+    }
+
     /// Transposes the varyings of the lanes' vertices into rows; flat ones are the provoking
     /// vertex's.
     #[inline(always)]

@@ -1,16 +1,21 @@
-//! The destination of a shaded packet's sixteen fragments: one packet of the tile, or four quads of
-//! different packets.
+//! The destination of a shaded packet's sixteen fragments: one packet of the tile, four quads of
+//! different packets, or sixteen pixels anywhere.
 
 use super::quad::{QUAD, QUADS};
-use estampe_simd::{LANES, Lanes, Select, SimdBase, u32x4, u32x16};
+use estampe_simd::{
+    Bytes, LANES, Lanes, Select, SimdBase, bits_of, bits_of_mut, f32x16, outline, u32x4, u32x16,
+};
+use std::hint::select_unpredictable;
 
 /// The place of sixteen fragments in their tile.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) enum Place {
     /// A packet of the tile.
     Packet(u16),
     /// Four quads: packet·4 + quad, of each. Quads that hold no fragment repeat another's place.
     Quads([u16; QUADS]),
+    /// Sixteen pixels: packet·16 + lane, of each. Those that are in a mask are different ones.
+    Pixels([u16; LANES]),
 }
 
 impl Default for Place {
@@ -44,22 +49,50 @@ fn packet_and_lanes(place: u16) -> (usize, std::ops::Range<usize>) {
     (usize::from(place) / QUADS, from..from + QUAD)
 }
 
+/// A pixel's packet, and its lane in it.
+#[inline(always)]
+fn packet_and_lane(place: u16) -> (usize, usize) {
+    (usize::from(place) / LANES, usize::from(place) % LANES)
+}
+
+#[inline(always)]
+fn pixel_indices<S: Lanes>(s: S, places: &[u16; LANES], lines: usize, line: usize) -> u32x16<S> {
+    let mut wide = [0; LANES];
+    for (wide, place) in wide.iter_mut().zip(places) {
+        *wide = u32::from(*place);
+    }
+    indices_of(s, u32x16::load_array(s, wide), [lines, line])
+}
+
+/// The indices of sixteen pixels' words in an attachment, given where they are (packet·16 + lane),
+/// the lines of a packet, and the first packet's line.
+#[inline(always)]
+#[expect(clippy::cast_possible_truncation, reason = "a tile has fewer lines")]
+pub(crate) fn indices_of<S: Lanes>(
+    s: S,
+    places: u32x16<S>,
+    [lines, line]: [usize; 2],
+) -> u32x16<S> {
+    let lane = places & <u32x16<S> as SimdBase<S>>::splat(s, LANES as u32 - 1);
+    (places - lane) * (lines as u32) + (lane + (line * LANES) as u32)
+}
+
 impl Place {
     /// Sixteen words of one sample, in the order of the fragments' lanes.
     #[inline(always)]
     pub(crate) fn load<S: Lanes>(
-        self,
+        &self,
         s: S,
         stored: &[[u32; LANES]],
         layout: PacketLayout,
         [sample, word]: [usize; 2],
     ) -> u32x16<S> {
-        match self {
+        match *self {
             Self::Packet(packet) => {
                 let line = layout.line(usize::from(packet), sample, word);
                 u32x16::load_array_ref(s, &stored[line])
             }
-            Self::Quads(places) => {
+            Self::Quads(ref places) => {
                 let quad = |place: u16| {
                     let (packet, lanes) = packet_and_lanes(place);
                     u32x4::from_slice(s, &stored[layout.line(packet, sample, word)][lanes])
@@ -72,13 +105,17 @@ impl Place {
                 ];
                 s.combine_u32x8(s.combine_u32x4(a, b), s.combine_u32x4(c, d))
             }
+            Self::Pixels(ref places) => outline!(s, {
+                let (lines, line) = (layout.line(1, 0, 0), layout.line(0, sample, word));
+                s.gather(stored.as_flattened(), pixel_indices(s, places, lines, line))
+            }),
         }
     }
 
     /// Stores the lanes of a mask.
     #[inline(always)]
     pub(crate) fn store<S: Lanes>(
-        self,
+        &self,
         s: S,
         values: MaskedWords<S>,
         stored: &mut [[u32; LANES]],
@@ -86,7 +123,7 @@ impl Place {
         [sample, word]: [usize; 2],
     ) {
         let MaskedWords { new, mask } = values;
-        match self {
+        match *self {
             Self::Packet(packet) => {
                 let line = &mut stored[layout.line(usize::from(packet), sample, word)];
                 let old = u32x16::load_array_ref(s, line);
@@ -94,9 +131,9 @@ impl Place {
             }
             // Two quads of one place may hold different lanes, so each is stored over what is there
             // by then.
-            Self::Quads(places) => {
+            Self::Quads(ref places) => {
                 let new = new.to_array();
-                for (quad, place) in places.into_iter().enumerate() {
+                for (quad, &place) in places.iter().enumerate() {
                     let masks = &QUAD_MASKS[usize::from(mask >> (quad * QUAD)) % 16];
                     if masks == &QUAD_MASKS[0] {
                         continue;
@@ -109,50 +146,100 @@ impl Place {
                     ((old & !masks) | (new & masks)).store_slice(to);
                 }
             }
+            Self::Pixels(ref places) => outline!(s, {
+                let (lines, line) = (layout.line(1, 0, 0), layout.line(0, sample, word));
+                let indices = pixel_indices(s, places, lines, line);
+                s.scatter(stored.as_flattened_mut(), indices, new, mask);
+            }),
         }
     }
 
-    /// Four bytes or floats of each quad, or a packet's sixteen, copied out.
+    /// One sample's depths, in the order of the fragments' lanes.
+    #[inline(always)]
+    pub(crate) fn depths<S: Lanes>(
+        &self,
+        s: S,
+        stored: &[[f32; LANES]],
+        [samples, sample]: [usize; 2],
+    ) -> [f32; LANES] {
+        match *self {
+            Self::Pixels(ref places) => outline!(s, {
+                let indices = pixel_indices(s, places, samples, sample);
+                let words = s.gather(bits_of(stored.as_flattened()), indices);
+                let depths: f32x16<S> = words.bitcast();
+                depths.to_array()
+            }),
+            _ => self.gather(stored, samples, sample),
+        }
+    }
+
+    /// Puts depths back in the lanes of a mask.
+    #[inline(always)]
+    pub(crate) fn set_depths<S: Lanes>(
+        &self,
+        s: S,
+        values: &[f32; LANES],
+        mask: u16,
+        stored: &mut [[f32; LANES]],
+        [samples, sample]: [usize; 2],
+    ) {
+        match *self {
+            Self::Pixels(ref places) => outline!(s, {
+                let indices = pixel_indices(s, places, samples, sample);
+                let words = f32x16::load_array_ref(s, values).bitcast();
+                s.scatter(bits_of_mut(stored.as_flattened_mut()), indices, words, mask);
+            }),
+            _ => self.scatter(values, mask, stored, samples, sample),
+        }
+    }
+
+    /// A value of each fragment's pixel, copied out.
     #[inline(always)]
     pub(crate) fn gather<T: Copy + Default>(
-        self,
+        &self,
         stored: &[[T; LANES]],
         samples: usize,
         sample: usize,
     ) -> [T; LANES] {
-        match self {
-            Self::Packet(packet) => stored[usize::from(packet) * samples + sample],
-            Self::Quads(places) => {
-                let mut out = [T::default(); LANES];
+        let mut out = [T::default(); LANES];
+        match *self {
+            Self::Packet(packet) => out = stored[usize::from(packet) * samples + sample],
+            Self::Quads(ref places) => {
                 for (out, place) in out.as_chunks_mut::<QUAD>().0.iter_mut().zip(places) {
-                    let (packet, lanes) = packet_and_lanes(place);
+                    let (packet, lanes) = packet_and_lanes(*place);
                     out.copy_from_slice(&stored[packet * samples + sample][lanes]);
                 }
-                out
+            }
+            Self::Pixels(ref places) => {
+                for (out, place) in out.iter_mut().zip(places) {
+                    let (packet, lane) = packet_and_lane(*place);
+                    *out = stored[packet * samples + sample][lane];
+                }
             }
         }
+        out
     }
 
     /// Puts gathered values back in the lanes of a mask.
     #[inline(always)]
     pub(crate) fn scatter<T: Copy>(
-        self,
+        &self,
         values: &[T; LANES],
         mask: u16,
         stored: &mut [[T; LANES]],
         samples: usize,
         sample: usize,
     ) {
-        match self {
+        match *self {
             Self::Packet(packet) => stored[usize::from(packet) * samples + sample] = *values,
-            Self::Quads(places) => {
+            Self::Quads(ref places) => {
                 let quads = values.as_chunks::<QUAD>().0.iter().zip(places);
                 for (quad, (values, place)) in quads.enumerate() {
                     let kept = mask >> (quad * QUAD) & 0xF;
                     if kept == 0 {
                         continue;
                     }
-                    let (packet, lanes) = packet_and_lanes(place);
+                    let (packet, lanes) = packet_and_lanes(*place);
                     let to = &mut stored[packet * samples + sample][lanes];
                     // Each lane is written, so that there is no branch for each.
                     for (lane, (to, value)) in to.iter_mut().zip(values).enumerate() {
@@ -160,6 +247,50 @@ impl Place {
                     }
                 }
             }
+            Self::Pixels(ref places) => {
+                for (at, (place, value)) in places.iter().zip(values).enumerate() {
+                    let (packet, lane) = packet_and_lane(*place);
+                    let to = &mut stored[packet * samples + sample][lane];
+                    *to = select_unpredictable(mask >> at & 1 == 1, *value, *to);
+                }
+            }
+        }
+    }
+
+    /// Returns true if one of the fragments in a mask is among some pixels, given by packet.
+    #[inline(always)]
+    pub(crate) fn overlaps(&self, mask: u16, pixels_of: impl Fn(usize) -> u16) -> bool {
+        let quads = |places: &[u16; QUADS]| {
+            places.iter().enumerate().fold(0, |both, (quad, &place)| {
+                let (packet, lanes) = packet_and_lanes(place);
+                both | mask >> (quad * QUAD) & 0xF & pixels_of(packet) >> lanes.start
+            })
+        };
+        let pixels = |places: &[u16; LANES]| {
+            places.iter().enumerate().fold(0, |both, (at, &place)| {
+                let (packet, lane) = packet_and_lane(place);
+                both | mask >> at & 1 & pixels_of(packet) >> lane
+            })
+        };
+        let both = match *self {
+            Self::Packet(packet) => mask & pixels_of(usize::from(packet)),
+            Self::Quads(ref places) => quads(places),
+            Self::Pixels(ref places) => pixels(places),
+        };
+        both != 0
+    }
+
+    /// The blocks of 16×16 pixels in which the fragments lie, one bit each.
+    #[inline(always)]
+    pub(crate) fn blocks(&self) -> u16 {
+        match *self {
+            Self::Packet(packet) => 1 << (packet >> 4 & 15),
+            Self::Quads(ref places) => places
+                .iter()
+                .fold(0, |all, place| all | 1 << (place >> 6 & 15)),
+            Self::Pixels(ref places) => places
+                .iter()
+                .fold(0, |all, place| all | 1 << (place >> 8 & 15)),
         }
     }
 }

@@ -37,6 +37,12 @@ impl<S: Lanes> Pixels<S> {
         self.0 >> 6
     }
 
+    /// Which bit of its triangle's box each pixel is.
+    #[inline(always)]
+    pub(super) fn bit(self, s: S) -> u32x16<S> {
+        self.0 & <u32x16<S> as SimdBase<S>>::splat(s, 63)
+    }
+
     #[inline(always)]
     pub(super) fn column(self, s: S) -> i32x16<S> {
         (self.0 & <u32x16<S> as SimdBase<S>>::splat(s, 7)).bitcast()
@@ -98,6 +104,23 @@ impl PixelList {
             }
         }
         self.len = len;
+    }
+
+    /// Sixteen pixels from one on; those behind the last are unspecified, but pixels.
+    #[inline(always)]
+    pub(crate) fn sixteen<S: Lanes>(&self, s: S, from: usize) -> Pixels<S> {
+        let sixteen = self.pixels.get(from..).and_then(<[u32]>::first_chunk);
+        Pixels(u32x16::load_array_ref(s, sixteen.unwrap_or(&[0; LANES])))
+    }
+
+    /// The pixels of four quads, from that of a listed pixel on, which are their first ones.
+    #[inline(always)]
+    pub(crate) fn four_quads<S: Lanes>(&self, s: S, from: usize) -> Pixels<S> {
+        const QUAD_OF: [u32; LANES] = [0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3];
+        const PIXEL: [u32; LANES] = [0, 1, 8, 9, 0, 1, 8, 9, 0, 1, 8, 9, 0, 1, 8, 9];
+        let first = self.sixteen(s, from).0;
+        let of_quads = s.permute(first, u32x16::load_array(s, QUAD_OF));
+        Pixels(of_quads + u32x16::load_array(s, PIXEL))
     }
 
     /// All sixteens of pixels, with what is to be noted of each: places and depths.

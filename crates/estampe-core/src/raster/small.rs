@@ -21,16 +21,26 @@ use estampe_simd::{
 };
 
 /// Columns and rows of pixels that a small triangle's box has at most.
-const SIDE: i32 = 8;
+pub(crate) const SIDE: i32 = 8;
 /// Pixels of the largest box.
 pub(crate) const PIXELS: usize = 64;
 
-/// The columns and rows at most where a pixel has several samples: the packets of a larger triangle
-/// hold enough of them, and what a triangle costs beside them is shared by all of its samples.
+/// The columns and rows at most of the visibility path where a pixel has several samples: the
+/// packets of a larger triangle hold enough of them, and what a triangle costs beside them is
+/// shared by all of its samples.
 const SIDE_OF_SAMPLES: i32 = 4;
 
 /// A small triangle's extent in 1/256 pixel is below this, whatever part of it the tile shows.
 const EXTENT: i32 = 1 << 12;
+
+/// The boxes of small triangles.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Boxes {
+    /// Of so many columns and rows at most: [`SIDE`] or fewer.
+    UpTo(i32),
+    /// Of quads whole: they begin at a quad, and have [`SIDE`] columns and rows at most.
+    OfQuads,
+}
 
 /// Small triangles of one packet inside a tile.
 #[derive(Debug, Clone)]
@@ -61,12 +71,31 @@ impl<const N: usize> Default for SmallTriangles<N> {
 
 impl<const N: usize> SmallTriangles<N> {
     /// Covers those of the packet's triangles in `lanes` that are small; returns which those are.
+    /// Of several samples, [larger ones](Self::cover_boxes) are left to others.
     #[inline(always)]
     pub(crate) fn cover<S: Lanes>(
         &mut self,
         s: S,
         packet: &TrianglePacket,
         lanes: u16,
+        tile: (TileShape, &PixelRect),
+        samples: SampleSet<N>,
+    ) -> u16 {
+        let side = if const { N == 1 } {
+            SIDE
+        } else {
+            SIDE_OF_SAMPLES
+        };
+        self.cover_boxes(s, Boxes::UpTo(side), (packet, lanes), tile, samples)
+    }
+
+    /// [`SmallTriangles::cover`] of the triangles whose boxes are as given.
+    #[inline(always)]
+    pub(crate) fn cover_boxes<S: Lanes>(
+        &mut self,
+        s: S,
+        boxes: Boxes,
+        (packet, lanes): (&TrianglePacket, u16),
         (tile, rect): (TileShape, &PixelRect),
         samples: SampleSet<N>,
     ) -> u16 {
@@ -82,19 +111,21 @@ impl<const N: usize> SmallTriangles<N> {
         let y_first = ((y0 + (255 - y_ends[1])) >> 8).max(splat(tile.y + rect.y0));
         let across = ((x_max - x_ends[0]) >> 8).min(splat(tile.x + rect.x1 - 1)) - x_first;
         let down = ((y2 - y_ends[0]) >> 8).min(splat(tile.y + rect.y1 - 1)) - y_first;
+        let is_empty = across.simd_lt(splat(0)) | down.simd_lt(splat(0));
+        // Boxes of quads begin at a quad: its first column or row may lie before the box.
+        let (before, above, side) = match boxes {
+            Boxes::UpTo(side) => (splat(0), splat(0), splat(side)),
+            Boxes::OfQuads => (x_first & splat(1), y_first & splat(1), splat(SIDE)),
+        };
+        let (x_first, y_first) = (x_first - before, y_first - above);
+        let (across, down) = (across + before, down + above);
         let extent = (x_max - x_min).max(y2 - y0);
-        let side = splat(if const { N == 1 } {
-            SIDE
-        } else {
-            SIDE_OF_SAMPLES
-        });
         let is_small = extent.simd_lt(splat(EXTENT)) & across.simd_lt(side) & down.simd_lt(side);
         let small = s.bits_of_mask(is_small) & lanes;
         if small == 0 {
             return 0;
         }
         let among = s.mask_from_bits(small);
-        let is_empty = across.simd_lt(splat(0)) | down.simd_lt(splat(0));
         let among = among & !is_empty;
         let (columns, rows) = (largest(s, across, among), largest(s, down, among));
 
@@ -113,7 +144,7 @@ impl<const N: usize> SmallTriangles<N> {
         // The columns of each box, and with them the lanes that have a row.
         let mut inside_box = splat(0);
         for column in 0..columns {
-            let has_column = across.simd_ge(splat(column)) & among;
+            let has_column = across.simd_ge(splat(column)) & before.simd_le(splat(column)) & among;
             inside_box = has_column.select(inside_box | splat(1 << column), inside_box);
         }
         for (covered, [x, y]) in self.covered.iter_mut().zip(positions) {
@@ -137,7 +168,7 @@ impl<const N: usize> SmallTriangles<N> {
                         *value += step;
                     }
                 }
-                let has_row = down.simd_ge(splat(row));
+                let has_row = down.simd_ge(splat(row)) & above.simd_le(splat(row));
                 let of_row = has_row.select(of_row & inside_box, splat(0));
                 let (half, shift) = ((row >> 2) as usize & 1, (row & 3) * SIDE);
                 halves[half] |= of_row << shift.cast_unsigned();
@@ -161,13 +192,74 @@ impl<const N: usize> SmallTriangles<N> {
     /// Lists the pixels of the triangles in `lanes` of which one sample is covered.
     #[inline(always)]
     pub(crate) fn list<S: Lanes>(&self, s: S, sample: usize, lanes: u16, list: &mut PixelList) {
-        let covered = &self.covered[sample % N];
+        self.list_covered(s, &self.covered[sample % N], lanes, list);
+    }
+
+    /// Lists the pixels of the triangles in `lanes` of which any sample is covered.
+    #[inline(always)]
+    pub(crate) fn list_any<S: Lanes>(&self, s: S, lanes: u16, list: &mut PixelList) {
+        if const { N == 1 } {
+            return self.list(s, 0, lanes, list);
+        }
+        self.list_covered(s, &self.covered_by_any(s), lanes, list);
+    }
+
+    /// Lists the first pixels of the quads of the triangles in `lanes` of which any sample is
+    /// covered. Boxes must be [those of quads](Boxes::OfQuads).
+    #[inline(always)]
+    pub(crate) fn list_quads<S: Lanes>(&self, s: S, lanes: u16, list: &mut PixelList) {
+        let mut any = self.covered_by_any(s);
+        for rows in &mut any {
+            let pixels = u32x16::load_array_ref(s, rows);
+            let columns = pixels | (pixels >> 1);
+            let quads = (columns | (columns >> 8)) & splat_u32(s, 0x0055_0055);
+            quads.store_array(rows);
+        }
+        self.list_covered(s, &any, lanes, list);
+    }
+
+    /// The pixels of which any sample is covered.
+    #[inline(always)]
+    fn covered_by_any<S: Lanes>(&self, s: S) -> [[u32; LANES]; 2] {
+        let mut any = self.covered[0];
+        for covered in &self.covered[1..] {
+            for (any, covered) in any.iter_mut().zip(covered) {
+                let both = u32x16::load_array_ref(s, any) | u32x16::load_array_ref(s, covered);
+                both.store_array(any);
+            }
+        }
+        any
+    }
+
+    /// Lists pixels of the triangles in `lanes`.
+    #[inline(always)]
+    fn list_covered<S: Lanes>(
+        &self,
+        s: S,
+        covered: &[[u32; LANES]; 2],
+        lanes: u16,
+        list: &mut PixelList,
+    ) {
         // Two rows of a box are sixteen bits.
         match self.rows {
             0..=2 => list.fill::<S, 1>(s, covered, lanes),
             3..=4 => list.fill::<S, 2>(s, covered, lanes),
             _ => list.fill::<S, 4>(s, covered, lanes),
         }
+    }
+
+    /// The lanes of sixteen pixels whose sample is covered.
+    #[inline(always)]
+    pub(crate) fn covers<S: Lanes>(&self, s: S, sample: usize, pixels: Pixels<S>) -> u16 {
+        let [upper, lower] = &self.covered[sample % N];
+        let upper = s.permute(u32x16::load_array_ref(s, upper), pixels.lane());
+        let lower = s.permute(u32x16::load_array_ref(s, lower), pixels.lane());
+        let bit = pixels.bit(s);
+        let is_upper = (bit & splat_u32(s, 32)).simd_eq(splat_u32(s, 0));
+        // The bit is moved to the sign.
+        let shifted =
+            is_upper.select(upper, lower) << (splat_u32(s, 31) - (bit & splat_u32(s, 31)));
+        s.sign_bits(shifted.bitcast())
     }
 
     /// The distances of sixteen pixels' first samples from their planes' origin, exact.
@@ -182,13 +274,19 @@ impl<const N: usize> SmallTriangles<N> {
         ]
     }
 
+    /// Where sixteen pixels are in the tile: packet·16 + lane.
+    #[inline(always)]
+    pub(crate) fn pixels_in_tile<S: Lanes>(&self, s: S, pixels: Pixels<S>) -> u32x16<S> {
+        let first = s.permute(u32x16::load_array_ref(s, &self.first), pixels.lane());
+        let step: u32x16<S> = (pixels.column(s) | (pixels.row(s) << 16)).bitcast();
+        spread(s, first + step)
+    }
+
     /// The places of sixteen pixels' first samples in the tile.
     #[inline(always)]
     #[expect(clippy::cast_possible_truncation, reason = "four samples at most")]
     pub(crate) fn places<S: Lanes>(&self, s: S, pixels: Pixels<S>) -> u32x16<S> {
-        let first = s.permute(u32x16::load_array_ref(s, &self.first), pixels.lane());
-        let step: u32x16<S> = (pixels.column(s) | (pixels.row(s) << 16)).bitcast();
-        let pixels = spread(s, first + step);
+        let pixels = self.pixels_in_tile(s, pixels);
         if const { N == 1 } {
             return pixels;
         }
@@ -228,6 +326,11 @@ impl<const N: usize> SmallTriangles<N> {
             (self.places(s, pixels) + line).store_array(places);
         }
     }
+}
+
+#[inline(always)]
+fn splat_u32<S: Lanes>(s: S, value: u32) -> u32x16<S> {
+    SimdBase::splat(s, value)
 }
 
 /// Morton order: the index in its tile of a pixel whose column is in the lower half and whose row

@@ -21,6 +21,7 @@ mod squares;
 
 use crate::{LANES, Packet};
 use fearless_simd::{Simd, SimdBase, u32x16};
+use std::hint::select_unpredictable;
 
 /// The last valid index, or `None` for an empty table. Elements from 2³¹ on are not reachable,
 /// because hardware indices are signed.
@@ -37,6 +38,14 @@ pub fn bits_of(table: &[f32]) -> &[u32] {
     // SAFETY: f32 and u32 have the same size and alignment, every bit pattern of either is valid,
     // and the result borrows what the argument borrows.
     unsafe { std::slice::from_raw_parts(table.as_ptr().cast(), table.len()) }
+}
+
+/// [`bits_of`], to scatter floats.
+#[must_use]
+#[expect(unsafe_code, reason = "safe transmutation is not stable")]
+pub fn bits_of_mut(table: &mut [f32]) -> &mut [u32] {
+    // SAFETY: as in `bits_of`; the borrow is exclusive, as the argument's is.
+    unsafe { std::slice::from_raw_parts_mut(table.as_mut_ptr().cast(), table.len()) }
 }
 
 /// Packets of words as packets of the floats that have these bits.
@@ -143,12 +152,29 @@ pub(crate) fn by_lane<S: Simd>(simd: S, table: &[u32], index: u32x16<S>) -> u32x
     u32x16::load_array(simd, out)
 }
 
+/// [`Lanes::scatter`](crate::Lanes::scatter) lane by lane.
+#[inline(always)]
+pub(crate) fn scatter_by_lane<S: Simd>(
+    table: &mut [u32],
+    index: u32x16<S>,
+    values: u32x16<S>,
+    lanes: u16,
+) {
+    let pairs = index.as_slice().iter().zip(values.as_slice());
+    for (lane, (&at, &value)) in pairs.enumerate() {
+        // Lanes outside the mask keep what is there, so that there is no branch on it.
+        if let Some(to) = table.get_mut(at as usize) {
+            *to = select_unpredictable(lanes >> lane & 1 == 1, value, *to);
+        }
+    }
+}
+
 #[cfg(target_arch = "x86_64")]
 pub use choice::SquareLoads;
 #[cfg(target_arch = "x86_64")]
 pub(crate) use {
     choice::{decide, square_avx2, square_avx512},
     fours::{four_avx2, four_avx512, four_sse2},
-    single::{avx2, avx512},
+    single::{avx2, avx512, scatter_avx512},
     squares::square_sse2,
 };

@@ -1,10 +1,13 @@
 //! Many small triangles: listed pixels, fragments that share packets across triangles, and edges
 //! that are set up sixteen at a time.
 
+use estampe::TilePath;
 use estampe_tests::geometry::{Style, triangles};
-use estampe_tests::shaders::{Colored, FlatColored, Halved, Probe};
+use estampe_tests::mixed_draws::Mixture;
+use estampe_tests::shaders::{Colored, Cutout, FlatColored, Gradients, Halved, Probe, Scalar};
 use estampe_tests::{Case, CaseDraw, ExpectedPaths, Random, TestShader, check_paths};
-use estampe_types::state::{CompareFunction, CullMode, DepthState};
+use estampe_types::TextureFormat;
+use estampe_types::state::{BlendState, CompareFunction, CullMode, DepthState};
 
 /// Triangles of a few pixels, some drawn twice at the same depths, so that only their order tells
 /// which is visible; in between a few larger ones.
@@ -103,6 +106,89 @@ fn edges_of_a_packets_triangles_are_set_up_together() {
         assert!(
             statistics.triangles_set_up_in_lanes > 0,
             "no edges were set up sixteen at a time"
+        );
+    }
+}
+
+/// Rows: R1, R6, O3, O4, O5, O9.
+#[test]
+fn pixels_of_small_triangles_in_order_fill_packets() {
+    for samples in [1, 4] {
+        let topic = format!("small_triangles/in_order_{samples}");
+        let paths = ExpectedPaths(&[TilePath::InOrderQuads]);
+        let statistics = check_paths(&topic, 8, paths, |random| {
+            let shader = match random.below(6) {
+                0 => Colored.into(),
+                1 => Cutout.into(),
+                2 => Gradients::random(random).into(),
+                // Several varyings, one of them flat; inputs that are no varyings.
+                _ => Probe(random.pick(&[
+                    Scalar::Smooth,
+                    Scalar::NoPerspective,
+                    Scalar::Flat,
+                    Scalar::X,
+                    Scalar::Y,
+                    Scalar::Z,
+                    Scalar::InverseW,
+                    Scalar::FrontFacing,
+                ]))
+                .into(),
+            };
+            let mut case = case(random, shader, [150, 100], samples);
+            for draw in &mut case.draws {
+                draw.blend = Some(random.pick(&[
+                    BlendState::ALPHA_BLENDING,
+                    BlendState::ADDITIVE,
+                    BlendState::PREMULTIPLIED_ALPHA_BLENDING,
+                ]));
+            }
+            case
+        });
+        let [fragments, packets] = statistics.fragments_listed_in_order;
+        // Packets end before a pixel that comes again, and here triangles lie over each other. One
+        // by one, each triangle would begin a packet for its two pixels or three.
+        assert!(
+            packets > 0 && fragments > packets * 7,
+            "{samples} samples: {fragments} fragments are in {packets} packets"
+        );
+    }
+}
+
+/// Every state over lists: stencils, depths that are written early and late, formats of one word
+/// and of several, several targets, masks, queries, large triangles in between.
+///
+/// Rows: R1, R6, O1, O3, O4, O5, O7, O8, O9, O10.
+#[test]
+fn lists_of_pixels_pass_through_every_state() {
+    use TextureFormat as F;
+    for samples in [1, 4] {
+        let topic = format!("small_triangles/states_{samples}");
+        let paths = ExpectedPaths(&[TilePath::InOrderQuads]);
+        let statistics = check_paths(&topic, 30, paths, |random| {
+            let formats = [F::Rgba8Unorm, F::Bgra8UnormSrgb, F::Rgba16Float, F::R8Unorm];
+            let mut targets = vec![random.pick(&formats)];
+            if random.once_in(4) {
+                targets.push(random.pick(&formats));
+            }
+            let depth = random.pick(&[
+                None,
+                Some(F::Depth32Float),
+                Some(F::Depth16Unorm),
+                Some(F::Depth24PlusStencil8),
+                Some(F::Stencil8),
+            ]);
+            let mixture = Mixture {
+                styles: vec![Style::Small, Style::Tiny, Style::OnGrid, Style::Large],
+                triangles: 150,
+                draws: 3,
+                ..Mixture::new(&targets, depth, samples)
+            };
+            mixture.case(random)
+        });
+        let [fragments, packets] = statistics.fragments_listed_in_order;
+        assert!(
+            packets > 100 && fragments > packets * 4,
+            "{samples} samples: {fragments} fragments are in {packets} packets"
         );
     }
 }

@@ -1,6 +1,7 @@
 //! Lines: values along the way from one end to the other.
 
 use super::Interpolant;
+use super::pixels::WindowPixels;
 use super::triangle::smooth_derivatives;
 use super::varyings::VaryingSource;
 use crate::bounds::primitives::LinePrimitive;
@@ -86,10 +87,10 @@ impl<'a> LineInterpolant<'a> {
         clippy::cast_possible_truncation,
         reason = "coordinates are below 2²⁴, and an offset is below 1"
     )]
-    fn fraction<S: Lanes>(&self, s: S, pixels: Pixels<S>, offset: [f32; 2]) -> f32x16<S> {
+    fn fraction<S: Lanes>(&self, s: S, pixels: WindowPixels<S>, offset: [f32; 2]) -> f32x16<S> {
         outline!(s, {
             let splat = |value| <i32x16<S> as SimdBase<S>>::splat(s, value);
-            let Pixels([x, y]) = pixels;
+            let WindowPixels([x, y]) = pixels;
             if self.rectangle.is_none() {
                 let unit = if self.axis.x_major { x } else { y };
                 let along = (unit << 8) + splat(128 - self.axis.start[0] as i32);
@@ -131,7 +132,7 @@ impl<'a> LineInterpolant<'a> {
     pub(super) fn depth_of<S: Lanes>(
         &self,
         s: S,
-        pixels: Pixels<S>,
+        pixels: WindowPixels<S>,
         sample: [f32; 2],
     ) -> f32x16<S> {
         let [a, b] = &self.line.ends;
@@ -139,7 +140,7 @@ impl<'a> LineInterpolant<'a> {
     }
 
     #[inline(always)]
-    pub(super) fn inverse_w_of<S: Lanes>(&self, s: S, pixels: Pixels<S>) -> f32x16<S> {
+    pub(super) fn inverse_w_of<S: Lanes>(&self, s: S, pixels: WindowPixels<S>) -> f32x16<S> {
         let [a, b] = &self.line.ends;
         if a.iw.to_bits() == b.iw.to_bits() {
             return SimdBase::splat(s, a.iw);
@@ -148,7 +149,12 @@ impl<'a> LineInterpolant<'a> {
     }
 
     #[inline(always)]
-    pub(super) fn varyings_of<S: Lanes>(&self, s: S, pixels: Pixels<S>, out: &mut [Packet<f32>]) {
+    pub(super) fn varyings_of<S: Lanes>(
+        &self,
+        s: S,
+        pixels: WindowPixels<S>,
+        out: &mut [Packet<f32>],
+    ) {
         let [a, b] = &self.line.ends;
         let (from, to) = (self.source.of(a.vertex), self.source.of(b.vertex));
         let provoking = self.source.of(self.line.provoking);
@@ -208,42 +214,6 @@ impl<'a> LineInterpolant<'a> {
     }
 }
 
-/// Sixteen pixels of the target: columns and rows.
-#[derive(Clone, Copy)]
-pub(super) struct Pixels<S: Lanes>([i32x16<S>; 2]);
-
-impl<S: Lanes> Pixels<S> {
-    /// The packet of 4×4 pixels from one on.
-    #[inline(always)]
-    pub(super) fn of_packet(s: S, [x, y]: [i32; 2]) -> Self {
-        let steps = |lanes: &[u8; LANES]| {
-            let mut steps = [0; LANES];
-            let mut lane = 0;
-            while lane < LANES {
-                steps[lane] = i32::from(lanes[lane]);
-                lane += 1;
-            }
-            i32x16::load_array(s, steps)
-        };
-        Self([steps(&LANE_X) + x, steps(&LANE_Y) + y])
-    }
-
-    /// Four quads, given their first pixels.
-    #[inline(always)]
-    pub(super) fn of_quads(s: S, quads: [[i32; 2]; 4]) -> Self {
-        let (mut x, mut y) = ([0; LANES], [0; LANES]);
-        let mut lane = 0;
-        while lane < LANES {
-            let [left, top] = quads[lane / 4];
-            // The first four lanes of a packet are a quad.
-            x[lane] = left + i32::from(LANE_X[lane % 4]);
-            y[lane] = top + i32::from(LANE_Y[lane % 4]);
-            lane += 1;
-        }
-        Self([i32x16::load_array(s, x), i32x16::load_array(s, y)])
-    }
-}
-
 /// `a + (b − a)·t`.
 #[inline(always)]
 fn mix<S: Lanes>(s: S, a: f32, b: f32, t: f32x16<S>) -> f32x16<S> {
@@ -254,16 +224,16 @@ fn mix<S: Lanes>(s: S, a: f32, b: f32, t: f32x16<S>) -> f32x16<S> {
 impl<S: Lanes> Interpolant<S> for LineInterpolant<'_> {
     #[inline(always)]
     fn depth(&self, s: S, pixel: [i32; 2], sample: [f32; 2]) -> f32x16<S> {
-        self.depth_of(s, Pixels::of_packet(s, pixel), sample)
+        self.depth_of(s, WindowPixels::of_packet(s, pixel), sample)
     }
 
     #[inline(always)]
     fn inverse_w(&self, s: S, pixel: [i32; 2]) -> f32x16<S> {
-        self.inverse_w_of(s, Pixels::of_packet(s, pixel))
+        self.inverse_w_of(s, WindowPixels::of_packet(s, pixel))
     }
 
     #[inline(always)]
     fn varyings(&self, s: S, pixel: [i32; 2], out: &mut [Packet<f32>]) {
-        self.varyings_of(s, Pixels::of_packet(s, pixel), out);
+        self.varyings_of(s, WindowPixels::of_packet(s, pixel), out);
     }
 }

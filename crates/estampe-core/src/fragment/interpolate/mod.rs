@@ -5,19 +5,20 @@
 //! `p₀ + ((X − x₀)·∂p/∂x + (Y − y₀)·∂p/∂y)`.
 
 mod line;
+mod pixels;
 mod planes;
 mod point;
 mod triangle;
 mod varyings;
 
 pub(crate) use line::LineInterpolant;
+pub(crate) use pixels::WindowPixels;
 pub(crate) use planes::{DepthPlane, PlaneBlock, PlaneOrigin, evaluate};
 pub(crate) use point::PointInterpolant;
 pub(crate) use triangle::{TriangleInterpolant, smooth_derivatives};
 pub(crate) use varyings::{VaryingPlanes, VaryingSource, set_planes};
 
 use estampe_simd::{LANES, Lanes, Packet, f32x16};
-use line::Pixels;
 
 /// A primitive whose values can be interpolated.
 pub(crate) trait Interpolant<S: Lanes> {
@@ -41,14 +42,14 @@ pub(crate) trait Interpolant<S: Lanes> {
     }
 }
 
-/// A primitive whose quads can be interpolated apart from those of their packet.
-pub(crate) trait QuadInterpolant<S: Lanes>: Interpolant<S> {
-    /// The varyings at the centres of four quads' pixels, given their first pixels.
-    fn varyings_of_quads(&self, s: S, quads: [[i32; 2]; 4], out: &mut [Packet<f32>]);
-    /// Depth at a sample offset (in pixels) of four quads' pixels, not yet clamped.
-    fn depth_of_quads(&self, s: S, quads: [[i32; 2]; 4], sample: [f32; 2]) -> f32x16<S>;
-    /// 1/w at the centres of four quads' pixels.
-    fn inverse_w_of_quads(&self, s: S, quads: [[i32; 2]; 4]) -> f32x16<S>;
+/// A primitive that can be interpolated at any pixels.
+pub(crate) trait PixelInterpolant<S: Lanes>: Interpolant<S> {
+    /// The varyings at the pixels' centres.
+    fn varyings_of(&self, s: S, pixels: WindowPixels<S>, out: &mut [Packet<f32>]);
+    /// Depth at a sample offset (in pixels) of the pixels, not yet clamped.
+    fn depth_of(&self, s: S, pixels: WindowPixels<S>, sample: [f32; 2]) -> f32x16<S>;
+    /// 1/w at the pixels' centres.
+    fn inverse_w_of(&self, s: S, pixels: WindowPixels<S>) -> f32x16<S>;
 }
 
 /// A line or a point: code for either is compiled once.
@@ -84,28 +85,28 @@ impl<S: Lanes> Interpolant<S> for LineOrPoint<'_> {
     }
 }
 
-impl<S: Lanes> QuadInterpolant<S> for LineOrPoint<'_> {
+impl<S: Lanes> PixelInterpolant<S> for LineOrPoint<'_> {
     #[inline(always)]
-    fn varyings_of_quads(&self, s: S, quads: [[i32; 2]; 4], out: &mut [Packet<f32>]) {
+    fn varyings_of(&self, s: S, pixels: WindowPixels<S>, out: &mut [Packet<f32>]) {
         match self {
-            Self::Line(line) => line.varyings_of(s, Pixels::of_quads(s, quads), out),
-            Self::Point(point) => point.varyings(s, quads[0], out),
+            Self::Line(line) => line.varyings_of(s, pixels, out),
+            Self::Point(point) => point.varyings(s, [0; 2], out),
         }
     }
 
     #[inline(always)]
-    fn depth_of_quads(&self, s: S, quads: [[i32; 2]; 4], sample: [f32; 2]) -> f32x16<S> {
+    fn depth_of(&self, s: S, pixels: WindowPixels<S>, sample: [f32; 2]) -> f32x16<S> {
         match self {
-            Self::Line(line) => line.depth_of(s, Pixels::of_quads(s, quads), sample),
-            Self::Point(point) => point.depth(s, quads[0], sample),
+            Self::Line(line) => line.depth_of(s, pixels, sample),
+            Self::Point(point) => point.depth(s, [0; 2], sample),
         }
     }
 
     #[inline(always)]
-    fn inverse_w_of_quads(&self, s: S, quads: [[i32; 2]; 4]) -> f32x16<S> {
+    fn inverse_w_of(&self, s: S, pixels: WindowPixels<S>) -> f32x16<S> {
         match self {
-            Self::Line(line) => line.inverse_w_of(s, Pixels::of_quads(s, quads)),
-            Self::Point(point) => point.inverse_w(s, quads[0]),
+            Self::Line(line) => line.inverse_w_of(s, pixels),
+            Self::Point(point) => point.inverse_w(s, [0; 2]),
         }
     }
 }

@@ -1,6 +1,6 @@
 //! Planes: values that are linear in the window, at sixteen pixels and over blocks of 16×16 pixels.
 
-use super::PixelOffsets;
+use super::{PixelOffsets, WindowPixels};
 use crate::bounds::plane::Plane;
 use crate::bounds::primitives::{Triangle, TrianglePacket};
 use estampe_simd::{LANE_X, LANE_Y, LANES, Lanes, SimdBase, f32x16, outline};
@@ -59,6 +59,16 @@ impl PlaneOrigin {
             self.columns_from(s, x, 0.0) + f32x16::load_array_ref(s, &places.x),
             self.rows_from(s, y, 0.0) + f32x16::load_array_ref(s, &places.y),
         ]
+    }
+
+    /// [`PlaneOrigin::distances`] of any pixels.
+    #[inline(always)]
+    pub(super) fn distances_to<S: Lanes>(
+        &self,
+        pixels: WindowPixels<S>,
+        [sx, sy]: [f32; 2],
+    ) -> [f32x16<S>; 2] {
+        pixels.coordinates([sx - self.x, sy - self.y])
     }
 
     /// [`PlaneOrigin::distances`] of the columns alone.

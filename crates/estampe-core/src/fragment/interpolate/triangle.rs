@@ -1,10 +1,10 @@
-//! Triangles: planes of depth, 1/w and varyings, at packets of 4×4 pixels and at quads.
+//! Triangles: planes of depth, 1/w and varyings, at packets of 4×4 pixels and at any pixels.
 
 use super::planes::{PlaneOrigin, evaluate};
 use super::varyings::VaryingPlanes;
-use super::{Interpolant, PixelOffsets, QuadInterpolant};
+use super::{Interpolant, PixelInterpolant, PixelOffsets, WindowPixels};
 use crate::bounds::plane::Plane;
-use estampe_simd::{LANES, Lanes, Packet, SimdBase, f32x4, f32x16, outline};
+use estampe_simd::{LANES, Lanes, Packet, SimdBase, f32x16, outline};
 use estampe_types::Interpolation;
 
 /// A triangle.
@@ -56,23 +56,23 @@ impl<S: Lanes> Interpolant<S> for TriangleInterpolant<'_> {
     }
 }
 
-impl<S: Lanes> QuadInterpolant<S> for TriangleInterpolant<'_> {
+impl<S: Lanes> PixelInterpolant<S> for TriangleInterpolant<'_> {
     #[inline(always)]
-    fn varyings_of_quads(&self, s: S, quads: [[i32; 2]; 4], out: &mut [Packet<f32>]) {
-        self.varyings_at(s, self.distances_of_quads(s, quads, [0.5; 2]), out);
+    fn varyings_of(&self, s: S, pixels: WindowPixels<S>, out: &mut [Packet<f32>]) {
+        self.varyings_at(s, self.origin.distances_to(pixels, [0.5; 2]), out);
     }
 
     #[inline(always)]
-    fn depth_of_quads(&self, s: S, quads: [[i32; 2]; 4], sample: [f32; 2]) -> f32x16<S> {
-        evaluate(s, &self.z, self.distances_of_quads(s, quads, sample))
+    fn depth_of(&self, s: S, pixels: WindowPixels<S>, sample: [f32; 2]) -> f32x16<S> {
+        evaluate(s, &self.z, self.origin.distances_to(pixels, sample))
     }
 
     #[inline(always)]
-    fn inverse_w_of_quads(&self, s: S, quads: [[i32; 2]; 4]) -> f32x16<S> {
+    fn inverse_w_of(&self, s: S, pixels: WindowPixels<S>) -> f32x16<S> {
         if self.equal_w {
             return SimdBase::splat(s, self.iw.origin);
         }
-        evaluate(s, &self.iw, self.distances_of_quads(s, quads, [0.5; 2]))
+        evaluate(s, &self.iw, self.origin.distances_to(pixels, [0.5; 2]))
     }
 }
 
@@ -140,42 +140,6 @@ impl TriangleInterpolant<'_> {
                 }
             }
         })
-    }
-
-    /// The distances of a place in each of four quads' pixels from the planes' origin, given their
-    /// first pixels.
-    #[inline(always)]
-    fn distances_of_quads<S: Lanes>(
-        &self,
-        s: S,
-        [a, b, c, d]: [[i32; 2]; 4],
-        offset: [f32; 2],
-    ) -> [f32x16<S>; 2] {
-        let [ax, ay] = self.quad_distances(s, a, offset);
-        let [bx, by] = self.quad_distances(s, b, offset);
-        let [cx, cy] = self.quad_distances(s, c, offset);
-        let [dx, dy] = self.quad_distances(s, d, offset);
-        [
-            s.combine_f32x8(s.combine_f32x4(ax, bx), s.combine_f32x4(cx, dx)),
-            s.combine_f32x8(s.combine_f32x4(ay, by), s.combine_f32x4(cy, dy)),
-        ]
-    }
-
-    /// Distances of a place in each of a quad's pixels from the origin.
-    #[inline(always)]
-    fn quad_distances<S: Lanes>(
-        &self,
-        s: S,
-        [x, y]: [i32; 2],
-        [sx, sy]: [f32; 2],
-    ) -> [f32x4<S>; 2] {
-        let splat = |value: f32| <f32x4<S> as SimdBase<S>>::splat(s, value);
-        let columns = f32x4::load_array(s, [0.0, 1.0, 0.0, 1.0]);
-        let rows = f32x4::load_array(s, [0.0, 0.0, 1.0, 1.0]);
-        [
-            columns + splat(x as f32 + sx - self.origin.x),
-            rows + splat(y as f32 + sy - self.origin.y),
-        ]
     }
 }
 

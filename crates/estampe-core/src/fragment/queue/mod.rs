@@ -5,12 +5,15 @@
 //! A packet is sixteen pixels of one primitive, or four quads of any primitives that share a
 //! pipeline, or, of shaders without derivatives, sixteen pixels of different small triangles.
 
+mod pixels;
 mod quads;
 mod shaded;
 mod shared;
 
+pub(crate) use pixels::PixelPacket;
 pub(crate) use quads::QuadPlace;
 pub(crate) use shaded::{LatePacket, ShadedBatch, depth_after_shading};
+pub(crate) use shared::replace;
 
 use super::centroid::{centroids, covered_bits};
 use super::interpolate::{Interpolant, PixelOffsets};
@@ -66,6 +69,8 @@ pub(crate) struct FragmentQueue<const N: usize> {
     sample_of: [Option<u8>; CAPACITY],
     /// The packet that is being filled with quads, and how many it has.
     open: Option<(usize, usize)>,
+    /// The packet that is being filled with pixels, and how many it has.
+    open_pixels: Option<(usize, usize)>,
     varyings: Vec<Packet<f32>>,
     /// Varyings that are not queued yet: of quads, or at centroids.
     spare: Vec<Packet<f32>>,
@@ -111,10 +116,11 @@ impl<const N: usize> Default for FragmentQueue<N> {
             depth_output: DepthOutput::None,
             sampling: Vec::new(),
             needs: Needs::default(),
-            places: [Place::default(); CAPACITY],
+            places: [const { Place::Packet(0) }; CAPACITY],
             masks: [[0; N]; CAPACITY],
             sample_of: [None; CAPACITY],
             open: None,
+            open_pixels: None,
             varyings: Vec::new(),
             spare: Vec::new(),
             spare_position: [Packet::default(); 4],
@@ -146,6 +152,7 @@ impl<const N: usize> FragmentQueue<N> {
         debug_assert_eq!(self.len, 0, "packets of another pipeline are still queued");
         self.samples = samples;
         self.open = None;
+        self.open_pixels = None;
         self.scalars = interface.fragment_scalars();
         self.targets = interface.color_targets;
         self.colors_each = interface.colors();
@@ -202,6 +209,14 @@ impl<const N: usize> FragmentQueue<N> {
     #[inline(always)]
     pub(crate) fn is_empty(&self) -> bool {
         self.len == 0
+    }
+
+    /// The places of the queued packets, and the lanes of which a sample is covered.
+    #[inline(always)]
+    pub(crate) fn queued(&self) -> impl Iterator<Item = (&Place, u16)> {
+        let packets = self.places.iter().zip(&self.masks);
+        let packets = packets.take(self.len.min(CAPACITY));
+        packets.map(|(place, masks)| (place, masks.iter().fold(0, |any, mask| any | mask)))
     }
 
     /// Takes the next slot, for packets at a place; gives its number, and where the program's
@@ -406,5 +421,6 @@ impl<const N: usize> FragmentQueue<N> {
         self.len = 0;
         self.shaded_len = 0;
         self.open = None;
+        self.open_pixels = None;
     }
 }

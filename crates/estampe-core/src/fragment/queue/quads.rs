@@ -2,7 +2,7 @@
 
 use super::{CAPACITY, FragmentQueue, Needs};
 use crate::depth_format::clamp_depth;
-use crate::fragment::interpolate::QuadInterpolant;
+use crate::fragment::interpolate::{PixelInterpolant, WindowPixels};
 use crate::fragment::place::Place;
 use crate::fragment::quad::{QUAD, QUADS};
 use crate::raster::SampleSet;
@@ -25,7 +25,7 @@ impl<const N: usize> FragmentQueue<N> {
     pub(crate) fn push_four_quads<S: Lanes>(
         &mut self,
         s: S,
-        interpolant: &impl QuadInterpolant<S>,
+        interpolant: &impl PixelInterpolant<S>,
         quads: &[QuadPlace<N>; QUADS],
         front: bool,
     ) {
@@ -39,15 +39,15 @@ impl<const N: usize> FragmentQueue<N> {
         let place = Place::Quads([a.place, b.place, c.place, d.place]);
         let (slot, shaded) = self.begin(place, masks, if front { u16::MAX } else { 0 });
         let out = &mut self.varyings[shaded * self.scalars..][..self.scalars];
-        let pixels = [a.pixel, b.pixel, c.pixel, d.pixel];
-        interpolant.varyings_of_quads(s, pixels, out);
+        let pixels = WindowPixels::of_quads(s, [a.pixel, b.pixel, c.pixel, d.pixel]);
+        interpolant.varyings_of(s, pixels, out);
         if self.needs.position {
-            self.positions[shaded] = self.position_of_quads(s, interpolant, pixels);
+            self.positions[shaded] = self.needs.position_of(s, interpolant, pixels);
         }
         if self.needs.depth {
             let depths = &mut self.depths[slot * N..][..N];
             self.needs
-                .depths_of_quads(s, interpolant, (pixels, self.samples), depths);
+                .depths_of(s, interpolant, (pixels, self.samples), depths);
         }
     }
 
@@ -56,19 +56,19 @@ impl<const N: usize> FragmentQueue<N> {
     pub(crate) fn interpolate_quads<S: Lanes>(
         &mut self,
         s: S,
-        interpolant: &impl QuadInterpolant<S>,
+        interpolant: &impl PixelInterpolant<S>,
         quads: &[QuadPlace<N>; QUADS],
     ) {
         let [a, b, c, d] = quads;
-        let pixels = [a.pixel, b.pixel, c.pixel, d.pixel];
-        interpolant.varyings_of_quads(s, pixels, &mut self.spare);
+        let pixels = WindowPixels::of_quads(s, [a.pixel, b.pixel, c.pixel, d.pixel]);
+        interpolant.varyings_of(s, pixels, &mut self.spare);
         if self.needs.position {
-            self.spare_position = self.position_of_quads(s, interpolant, pixels);
+            self.spare_position = self.needs.position_of(s, interpolant, pixels);
         }
         if self.needs.depth {
             let depths = &mut self.spare_depths;
             self.needs
-                .depths_of_quads(s, interpolant, (pixels, self.samples), depths);
+                .depths_of(s, interpolant, (pixels, self.samples), depths);
         }
     }
 
@@ -120,30 +120,6 @@ impl<const N: usize> FragmentQueue<N> {
         }
     }
 
-    /// Window position (x, y, z, 1/w) at four quads' pixels, given their first pixels.
-    #[inline(always)]
-    fn position_of_quads<S: Lanes>(
-        &self,
-        s: S,
-        interpolant: &impl QuadInterpolant<S>,
-        quads: [[i32; 2]; QUADS],
-    ) -> [Packet<f32>; 4] {
-        let mut position = [Packet::default(); 4];
-        let [x, y, z, w] = &mut position;
-        for (quad, [left, top]) in quads.into_iter().enumerate() {
-            let (left, top) = (left as f32 + 0.5, top as f32 + 0.5);
-            let lanes = quad * QUAD..(quad + 1) * QUAD;
-            x.0[lanes.clone()].copy_from_slice(&[left, left + 1.0, left, left + 1.0]);
-            y.0[lanes].copy_from_slice(&[top, top, top + 1.0, top + 1.0]);
-        }
-        let depth = interpolant.depth_of_quads(s, quads, [0.5; 2]);
-        clamp_depth(s, depth, self.needs.depth_range).store_array(&mut z.0);
-        interpolant
-            .inverse_w_of_quads(s, quads)
-            .store_array(&mut w.0);
-        position
-    }
-
     /// Returns true if the next quad begins a new packet.
     #[inline(always)]
     pub(crate) fn begins_with_next_quad(&self) -> bool {
@@ -158,18 +134,37 @@ impl<const N: usize> FragmentQueue<N> {
 }
 
 impl Needs {
-    /// The depth of each sample at four quads' pixels, given their first pixels.
+    /// Window position (x, y, z, 1/w) at any pixels.
     #[inline(always)]
-    fn depths_of_quads<S: Lanes, const N: usize>(
+    pub(super) fn position_of<S: Lanes>(
         &self,
         s: S,
-        interpolant: &impl QuadInterpolant<S>,
-        (quads, samples): ([[i32; 2]; QUADS], SampleSet<N>),
+        interpolant: &impl PixelInterpolant<S>,
+        pixels: WindowPixels<S>,
+    ) -> [Packet<f32>; 4] {
+        let mut position = [Packet::default(); 4];
+        let [x, y, z, w] = &mut position;
+        let [column, row] = pixels.coordinates([0.5; 2]);
+        column.store_array(&mut x.0);
+        row.store_array(&mut y.0);
+        let depth = interpolant.depth_of(s, pixels, [0.5; 2]);
+        clamp_depth(s, depth, self.depth_range).store_array(&mut z.0);
+        interpolant.inverse_w_of(s, pixels).store_array(&mut w.0);
+        position
+    }
+
+    /// The depth of each sample at any pixels.
+    #[inline(always)]
+    pub(super) fn depths_of<S: Lanes, const N: usize>(
+        &self,
+        s: S,
+        interpolant: &impl PixelInterpolant<S>,
+        (pixels, samples): (WindowPixels<S>, SampleSet<N>),
         out: &mut [Packet<f32>],
     ) {
         let offsets = samples.offsets();
         for (depth, offset) in out.iter_mut().zip(offsets).take(samples.count()) {
-            let value = interpolant.depth_of_quads(s, quads, offset);
+            let value = interpolant.depth_of(s, pixels, offset);
             clamp_depth(s, value, self.depth_range).store_array(&mut depth.0);
         }
     }

@@ -21,7 +21,7 @@ impl<const N: usize> FragmentQueue<N> {
             let shaded = usize::from(shaded_of[slot]) % CAPACITY;
             LatePacket {
                 masks,
-                place: places[slot],
+                place: &places[slot],
                 front: front[shaded],
                 alpha: (targets > 0).then(|| &colors[shaded * each * 4 + 3]),
                 depths: depths.get(slot * N..(slot + 1) * N).unwrap_or_default(),
@@ -58,7 +58,7 @@ impl<const N: usize> FragmentQueue<N> {
 pub(crate) struct LatePacket<'a, const N: usize> {
     /// By sample: the lanes that are covered and not discarded.
     pub(crate) masks: &'a mut [u16; N],
-    pub(crate) place: Place,
+    pub(crate) place: &'a Place,
     /// The lanes whose primitive faces the viewer.
     pub(crate) front: u16,
     /// Alpha of target 0.
@@ -92,7 +92,7 @@ pub(crate) struct ShadedBatch<'a> {
 /// One packet of a batch.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct ShadedPacket<'a> {
-    pub(crate) place: Place,
+    pub(crate) place: &'a Place,
     /// By sample: the lanes to write.
     pub(crate) masks: &'a [u16],
     /// The place of its colours: packets with the same one have the same colours.
@@ -107,7 +107,7 @@ impl<'a> ShadedBatch<'a> {
     pub(crate) fn packets(self) -> impl Iterator<Item = ShadedPacket<'a>> {
         let places = self.places.iter().enumerate();
         places.map(move |(slot, place)| ShadedPacket {
-            place: *place,
+            place,
             masks: &self.masks[slot * self.mask_stride..][..self.samples.min(MAX_SAMPLES)],
             shaded: self.shaded_of[slot],
             colors: &self.colors[usize::from(self.shaded_of[slot]) * self.stride..][..self.stride],

@@ -102,7 +102,7 @@ impl<const N: usize> FragmentQueue<N> {
 
 /// Replaces some lanes of a packet.
 #[inline(always)]
-fn replace<S: Lanes>(s: S, packet: &mut Packet<f32>, lanes: u16, by: f32x16<S>) {
+pub(crate) fn replace<S: Lanes>(s: S, packet: &mut Packet<f32>, lanes: u16, by: f32x16<S>) {
     let before = f32x16::load_array_ref(s, &packet.0);
     let after = s.mask_from_bits(lanes).select(by, before);
     after.store_array(&mut packet.0);

@@ -27,8 +27,5 @@ impl<const N: usize> InOrder<'_, '_, '_, N> {
         let batch = self.scratch.queue.batch();
         write_colors(plan, level, &batch, &mut self.job.colors);
         self.scratch.queue.clear();
-        if self.gathers {
-            self.scratch.in_order.solid.forget_queued();
-        }
     }
 }

@@ -6,7 +6,8 @@
 //!
 //! ```text
 //!   coverage ─▶ early tests ─▶ queue ─▶ shader ─▶ late tests ─▶ colours
-//!      └─ whole blocks, blended from planes (`blocks`)
+//!      ├─ whole blocks, blended from planes (`blocks`)
+//!      └─ small triangles, sixteen at a time (`small`)
 //! ```
 
 /// Enters the SIMD level in code that is generic over `N`, the number of samples: the scalar level
@@ -25,8 +26,12 @@ macro_rules! dispatch_samples {
 
 mod ahead;
 mod blocks;
+mod dense;
 mod flush;
+mod fragments;
+mod listed;
 mod shade;
+mod small;
 mod solid;
 mod tests;
 
@@ -45,7 +50,9 @@ use crate::raster::{CoverageList, SampleSet, line, point};
 use crate::tile_path::TilePath;
 use estampe_simd::{Lane, Lanes};
 use estampe_types::state::ConservativeMode;
+use fragments::{Fragments, LastPacket};
 use shade::PendingQuads;
+use small::{Batch, Listing, SmallScratch};
 use solid::Solid;
 
 /// Memory of one worker.
@@ -58,6 +65,9 @@ pub(super) struct InOrderScratch<const N: usize> {
     planes: Vec<f32>,
     pending: PendingQuads,
     solid: Solid<N>,
+    small: Box<SmallScratch<N>>,
+    fragments: Box<Fragments>,
+    last_packet: Box<LastPacket>,
 }
 
 impl<const N: usize> Default for InOrderScratch<N> {
@@ -68,6 +78,9 @@ impl<const N: usize> Default for InOrderScratch<N> {
             planes: Vec::new(),
             pending: PendingQuads::default(),
             solid: Solid::default(),
+            small: Box::default(),
+            fragments: Box::default(),
+            last_packet: Box::default(),
         }
     }
 }
@@ -115,15 +128,22 @@ fn draw_entries<S: Lanes, const N: usize>(
         uses_hiz: plan.timing != TestTiming::Late,
         blends_blocks: plan.path == TilePath::InOrderBlocks,
         shares_packets: plan.path != TilePath::InOrderPackets,
+        needs_no_quads: pipeline.key().needs_no_quads,
         // A run is of one kind of primitive, and notes of the queue serve triangles alone.
         gathers: gathers(plan) && matches!(entries.first(), Some(BinEntry::Triangles { .. })),
         stores_in_order: pipeline.key().stores_in_order,
+        listing: if const { S::IS_SCALAR || N > 4 } {
+            Listing::None
+        } else {
+            Listing::of(plan)
+        },
         passed: 0,
         planes,
         smooth: None,
         job,
         scratch,
     };
+    let mut batch = Batch::default();
     for (at, entry) in entries.iter().enumerate() {
         if const { !S::IS_SCALAR } && at % ahead::ENTRIES == 0 {
             ahead::touch(work.chunk, &drawing.source, &entries[at..]);
@@ -134,8 +154,11 @@ fn draw_entries<S: Lanes, const N: usize>(
                     if const { S::IS_SCALAR } {
                         let packet = &work.chunk.triangles[packet as usize];
                         drawing.triangle(s, &packet.triangle(lane.get()));
-                    } else {
-                        drawing.triangle(s, &work.chunk.taken_apart(packet)[lane.get()]);
+                        continue;
+                    }
+                    let triangle = &work.chunk.taken_apart(packet)[lane.get()];
+                    if batch.add(triangle) {
+                        drawing.batch(s, &mut batch);
                     }
                 }
             }
@@ -143,6 +166,7 @@ fn draw_entries<S: Lanes, const N: usize>(
             BinEntry::Point(number) => drawing.point(&work.chunk.points[number as usize]),
         }
     }
+    drawing.batch(s, &mut batch);
     drawing.end_solid();
     drawing.flush();
     let (passed, planes) = (drawing.passed, std::mem::take(&mut drawing.planes));
@@ -169,12 +193,16 @@ struct InOrder<'a, 'j, 't, const N: usize> {
     uses_hiz: bool,
     /// True if whole blocks of triangles without perspective are blended from their planes.
     blends_blocks: bool,
-    /// True if quads of several triangles share packets.
+    /// True if quads or pixels of several primitives share packets.
     shares_packets: bool,
+    /// True if fragments are shaded without looking at others of their quad.
+    needs_no_quads: bool,
     /// True if triangles of one colour are gathered.
     gathers: bool,
     /// True if shaders store in an order that can be seen.
     stores_in_order: bool,
+    /// What is listed of small triangles.
+    listing: Listing,
     /// Samples that passed all tests, where a query counts them.
     passed: u64,
     /// Planes of the triangle at hand.
@@ -227,13 +255,8 @@ impl<'a, const N: usize> InOrder<'a, '_, '_, N> {
         if const { N == 1 } && coverage.whole != 0 {
             self.blend_blocks(&interpolant, coverage);
         }
-        // The scalar level has no code for quads that share packets: it takes the compiler too
-        // long.
-        if const { !S::IS_SCALAR } && self.shares_packets {
-            self.queue_quads(s, &interpolant, front);
-        } else {
-            self.queue_packets(s, &interpolant, front);
-        }
+        let as_pixels = self.needs_no_quads && const { N <= 4 };
+        self.queue_list(s, &interpolant, (front, as_pixels));
         self.planes = planes;
     }
 

@@ -1,4 +1,5 @@
-//! From coverage to the queue: whole packets, or quads that share packets.
+//! From coverage to the queue: whole packets, or quads that share packets, or [pixels](super::dense)
+//! that do.
 //!
 //! A primitive that covers a few pixels leaves most lanes of its packets idle: a glyph of 10×14
 //! pixels uses 36 % of them, a line a quarter. So a packet of which the primitive covers no pixel
@@ -7,7 +8,7 @@
 //! it, closes that packet.
 
 use super::InOrder;
-use crate::fragment::interpolate::{Interpolant, QuadInterpolant};
+use crate::fragment::interpolate::{Interpolant, PixelInterpolant};
 use crate::fragment::quad::QUADS;
 use crate::fragment::queue::{PrimitivePacket, QuadPlace};
 use crate::raster::{Covered, packet_origin};
@@ -44,28 +45,39 @@ impl<const N: usize> InOrder<'_, '_, '_, N> {
     pub(super) fn covered<S: Lanes>(
         &mut self,
         s: S,
-        interpolant: &impl QuadInterpolant<S>,
+        interpolant: &impl PixelInterpolant<S>,
         front: bool,
     ) {
         if !self.test_early(s, interpolant, front) {
             return;
         }
         self.end_solid();
-        if const { !S::IS_SCALAR } && self.shares_packets {
-            self.queue_quads(s, interpolant, front);
-        } else {
+        // Pixels would be slower than quads (`wire` 93 ms → 102): a line has few.
+        self.queue_list(s, interpolant, (front, false));
+    }
+
+    /// Queues the list as packets, pixels or quads.
+    #[inline(always)]
+    pub(super) fn queue_list<S: Lanes>(
+        &mut self,
+        s: S,
+        interpolant: &impl PixelInterpolant<S>,
+        (front, as_pixels): (bool, bool),
+    ) {
+        // The scalar level has no code for packets that primitives share: it takes the compiler too
+        // long.
+        if const { S::IS_SCALAR } || !self.shares_packets {
             self.queue_packets(s, interpolant, front);
+        } else if as_pixels {
+            self.queue_dense(s, interpolant, front);
+        } else {
+            self.queue_quads(s, interpolant, front);
         }
     }
 
     /// Queues the list as whole packets, shading whenever the queue is full.
     #[inline(always)]
-    pub(super) fn queue_packets<S: Lanes>(
-        &mut self,
-        s: S,
-        interpolant: &impl Interpolant<S>,
-        front: bool,
-    ) {
+    fn queue_packets<S: Lanes>(&mut self, s: S, interpolant: &impl Interpolant<S>, front: bool) {
         let key = self.work.plan.pipeline.key();
         let mut before = 0;
         for at in 0..self.scratch.in_order.list.items().len() {
@@ -101,7 +113,7 @@ impl<const N: usize> InOrder<'_, '_, '_, N> {
     }
 
     #[inline(always)]
-    fn queue_packet<S: Lanes>(
+    pub(super) fn queue_packet<S: Lanes>(
         &mut self,
         s: S,
         interpolant: &impl Interpolant<S>,
@@ -111,24 +123,12 @@ impl<const N: usize> InOrder<'_, '_, '_, N> {
             self.flush();
         }
         self.scratch.queue.push(s, interpolant, packet);
-        if self.gathers {
-            let alive = &packet.alive;
-            self.scratch
-                .in_order
-                .solid
-                .note_queued(alive.packet, alive.any());
-        }
     }
 
     /// Queues a primitive's list: packets in which no quad is empty as they are, the others' quads
     /// apart.
     #[inline(always)]
-    pub(super) fn queue_quads<S: Lanes>(
-        &mut self,
-        s: S,
-        interpolant: &impl QuadInterpolant<S>,
-        front: bool,
-    ) {
+    fn queue_quads<S: Lanes>(&mut self, s: S, interpolant: &impl PixelInterpolant<S>, front: bool) {
         let mut quads = [QuadPlace {
             place: 0,
             masks: [0; N],
@@ -179,7 +179,7 @@ impl<const N: usize> InOrder<'_, '_, '_, N> {
     fn queue_four_quads<S: Lanes>(
         &mut self,
         s: S,
-        interpolant: &impl QuadInterpolant<S>,
+        interpolant: &impl PixelInterpolant<S>,
         quads: &[QuadPlace<N>; QUADS],
         front: bool,
     ) {
@@ -191,7 +191,6 @@ impl<const N: usize> InOrder<'_, '_, '_, N> {
             .push_four_quads(s, interpolant, quads, front);
         for quad in quads {
             self.scratch.in_order.pending.add(quad.place, 1);
-            self.note_quad(quad);
         }
     }
 
@@ -211,22 +210,11 @@ impl<const N: usize> InOrder<'_, '_, '_, N> {
         }
         scratch.in_order.pending.add(quad.place, 1);
         scratch.queue.push_quad((at, quad), front);
-        self.note_quad(quad);
-    }
-
-    #[inline(always)]
-    fn note_quad(&mut self, quad: &QuadPlace<N>) {
-        if self.gathers {
-            let any = quad.masks.iter().fold(0, |any, mask| any | mask);
-            let pixels = any << (quad.place % 4 * 4);
-            let solid = &mut self.scratch.in_order.solid;
-            solid.note_queued(quad.place / 4, pixels);
-        }
     }
 
     /// The first pixel of a packet of the tile, in the target.
     #[inline(always)]
-    fn pixel_of(&self, packet: u16) -> [i32; 2] {
+    pub(super) fn pixel_of(&self, packet: u16) -> [i32; 2] {
         let (x, y) = packet_origin(u32::from(packet));
         [self.work.shape.x + x, self.work.shape.y + y]
     }

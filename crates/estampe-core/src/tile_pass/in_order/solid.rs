@@ -9,6 +9,7 @@
 //! before: it is written first if it has a fragment at one of the pixels; otherwise it may wait.
 
 use super::InOrder;
+use crate::fragment::queue::FragmentQueue;
 use crate::raster::MAX_PACKETS;
 use crate::tile_pass::write_colors;
 use estampe_simd::LANES;
@@ -23,8 +24,6 @@ pub(super) struct Solid<const N: usize> {
     masks: [[u16; N]; MAX_PACKETS],
     /// The packets in which something is gathered, one bit each.
     packets: [u64; MAX_PACKETS / 64],
-    /// By packet: the pixels of which a fragment is in the queue.
-    queued: [u16; MAX_PACKETS],
 }
 
 impl<const N: usize> Default for Solid<N> {
@@ -34,24 +33,11 @@ impl<const N: usize> Default for Solid<N> {
             front: false,
             masks: [[0; N]; MAX_PACKETS],
             packets: [0; MAX_PACKETS / 64],
-            queued: [0; MAX_PACKETS],
         }
     }
 }
 
 impl<const N: usize> Solid<N> {
-    /// Notes that fragments of a packet were queued.
-    #[inline(always)]
-    pub(super) fn note_queued(&mut self, packet: u16, pixels: u16) {
-        self.queued[usize::from(packet) % MAX_PACKETS] |= pixels;
-    }
-
-    /// Notes that the queue was emptied.
-    #[inline(always)]
-    pub(super) fn forget_queued(&mut self) {
-        self.queued = [0; MAX_PACKETS];
-    }
-
     #[inline(always)]
     fn is_empty(&self) -> bool {
         self.packets == [0; MAX_PACKETS / 64]
@@ -80,13 +66,15 @@ impl<const N: usize> Solid<N> {
         }
     }
 
-    /// Returns true if the queue has a fragment at a gathered pixel.
+    /// Returns true if a packet of the queue has a fragment at a gathered pixel.
     #[inline(always)]
-    fn overlaps_queue(&self) -> bool {
-        let masks = self.masks.iter().zip(&self.queued);
-        masks.fold(0, |both, (masks, queued)| {
-            both | queued & masks.iter().fold(0, |any, mask| any | mask)
-        }) != 0
+    fn overlaps(&self, queue: &FragmentQueue<N>) -> bool {
+        let gathered = |packet: usize| {
+            let masks = &self.masks[packet % MAX_PACKETS];
+            masks.iter().fold(0, |any, mask| any | mask)
+        };
+        let mut queued = queue.queued();
+        queued.any(|(place, pixels)| place.overlaps(pixels, gathered))
     }
 }
 
@@ -133,7 +121,7 @@ impl<const N: usize> InOrder<'_, '_, '_, N> {
 
     #[inline(never)]
     fn write_solid(&mut self) {
-        if self.scratch.in_order.solid.overlaps_queue() {
+        if self.scratch.in_order.solid.overlaps(&self.scratch.queue) {
             self.flush();
         }
         let (plan, level) = (self.work.plan, self.work.level);

@@ -121,7 +121,7 @@ impl<const N: usize> InOrder<'_, '_, '_, N> {
             }
             if !plan.tests.is_empty() {
                 run_late(s, &plan.tests, &mut packet, count, self.job);
-                written |= blocks_of(packet.place);
+                written |= packet.place.blocks();
             }
             if plan.query.is_some() {
                 let counts = packet.masks.iter().map(|mask| u64::from(mask.count_ones()));
@@ -152,35 +152,51 @@ fn run_late<S: Lanes, const N: usize>(
         let depth = depth_after_shading(s, interpolated, packet.depth_out, tests.stored.range);
         let new = tests.stored.format.stored_lanes(s, depth);
         let place = packet.place;
-        packet.masks[sample] = match place {
+        let front = packet.front;
+        packet.masks[sample] = match *place {
             Place::Packet(number) => {
                 let line = usize::from(number) * samples + sample;
                 let stored = StoredSamples {
                     depth: job.depth.get_mut(line),
                     stencil: job.stencil.get_mut(line),
                 };
-                tests.run(s, new, lanes, packet.front, stored)
+                tests.run(s, new, lanes, front, stored)
             }
-            Place::Quads(_) => {
-                let mut depth =
-                    (!job.depth.is_empty()).then(|| place.gather(job.depth, samples, sample));
-                let mut stencil =
-                    (!job.stencil.is_empty()).then(|| place.gather(job.stencil, samples, sample));
-                let stored = StoredSamples {
-                    depth: depth.as_mut(),
-                    stencil: stencil.as_mut(),
-                };
-                let passed = tests.run(s, new, lanes, packet.front, stored);
-                if let Some(depth) = &depth {
-                    place.scatter(depth, lanes, job.depth, samples, sample);
-                }
-                if let Some(stencil) = &stencil {
-                    place.scatter(stencil, lanes, job.stencil, samples, sample);
-                }
-                passed
+            Place::Quads(_) | Place::Pixels(_) => {
+                run_apart(s, tests, (new, lanes, front), (place, samples, sample), job)
             }
         };
     }
+}
+
+/// Tests one sample of fragments that lie apart. Returns the lanes that pass.
+#[inline(always)]
+pub(super) fn run_apart<S: Lanes>(
+    s: S,
+    tests: &SampleTests,
+    (new, lanes, front): (f32x16<S>, u16, u16),
+    (place, samples, sample): (&Place, usize, usize),
+    job: &mut TileJob<'_>,
+) -> u16 {
+    let at = [samples, sample];
+    let mut depth = [0.0; LANES];
+    let has_depth = !job.depth.is_empty();
+    if has_depth {
+        depth = place.depths(s, job.depth, at);
+    }
+    let mut stencil = (!job.stencil.is_empty()).then(|| place.gather(job.stencil, samples, sample));
+    let stored = StoredSamples {
+        depth: has_depth.then_some(&mut depth),
+        stencil: stencil.as_mut(),
+    };
+    let passed = tests.run(s, new, lanes, front, stored);
+    if has_depth && tests.writes_depth() {
+        place.set_depths(s, &depth, lanes, job.depth, at);
+    }
+    if let (Some(stencil), Some(_)) = (&stencil, &tests.stencil) {
+        place.scatter(stencil, lanes, job.stencil, samples, sample);
+    }
+    passed
 }
 
 /// Keeps the first of the samples, as many as alpha says: ⌊alpha·samples + ½⌋.
@@ -205,18 +221,6 @@ fn keep_by_mask(kept: &Packet<u32>, masks: &mut [u16]) {
             if kept.0[lane] >> sample & 1 == 0 {
                 *mask &= !(1 << lane);
             }
-        }
-    }
-}
-
-/// The blocks of 16×16 pixels in which a packet's fragments lie, one bit each.
-#[inline(always)]
-fn blocks_of(place: Place) -> u16 {
-    match place {
-        Place::Packet(packet) => 1 << (packet >> 4 & 15),
-        Place::Quads(places) => {
-            let blocks = places.map(|place| 1 << (place >> 6 & 15));
-            blocks.into_iter().fold(0, |all, block| all | block)
         }
     }
 }

@@ -1,0 +1,267 @@
+//! Small triangles of a batch as a list of pixels, or quads: tests before shading, then packets.
+
+use super::dense::lanes_between;
+use super::small::Listing;
+use super::tests::run_apart;
+use super::{InOrder, InOrderScratch};
+use crate::depth_format::clamp_depth;
+use crate::fragment::cross_triangle::{Row, bits_of_row};
+use crate::fragment::interpolate::WindowPixels;
+use crate::fragment::place::{Place, indices_of};
+use crate::fragment::quad::QUAD;
+use crate::fragment::queue::{PixelPacket, replace};
+use crate::per_sample::sample_tests::StoredSamples;
+use crate::plan::tile_plan::TestTiming;
+use crate::raster::pixel_list::Pixels;
+use estampe_simd::{Bytes, LANES, Lanes, Select, SimdBase, bits_of, dispatch, f32x16, u32x16};
+
+/// When the tests that come before shading are made.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum EarlyTests {
+    None,
+    /// Over the whole list, because nothing is written.
+    OfList,
+    /// Packet by packet.
+    OfPackets,
+}
+
+impl<const N: usize> InOrder<'_, '_, '_, N> {
+    /// Draws small triangles of the batch that follow each other.
+    #[inline(never)]
+    pub(super) fn list_pixels(&mut self, lanes: u16) {
+        if const { N <= 4 } {
+            dispatch!(@wide self.work.level, s => self.list_lanes(s, lanes),
+                scalar => unreachable!("the scalar level draws triangle by triangle"));
+        }
+    }
+
+    #[inline(always)]
+    fn list_lanes<S: Lanes>(&mut self, s: S, lanes: u16) {
+        let plan = self.work.plan;
+        let scratch = &mut *self.scratch.in_order.small;
+        if self.listing == Listing::Quads {
+            scratch.small.list_quads(s, lanes, &mut scratch.listed);
+        } else {
+            scratch.small.list_any(s, lanes, &mut scratch.listed);
+        }
+        let is_read_only = plan.tests.stencil.is_none() && !plan.tests.writes_depth();
+        let early = match plan.timing {
+            TestTiming::Late => EarlyTests::None,
+            TestTiming::Early if plan.tests.is_empty() => EarlyTests::None,
+            TestTiming::Early if !is_read_only => EarlyTests::OfPackets,
+            TestTiming::Early | TestTiming::RejectEarly => EarlyTests::OfList,
+        };
+        self.test_list(s, early == EarlyTests::OfList);
+        let mut from = 0;
+        let count = self.scratch.in_order.fragments.len();
+        if count != 0 {
+            self.end_solid();
+        }
+        while from < count {
+            from += self.queue_pixels(s, from, early == EarlyTests::OfPackets);
+        }
+    }
+
+    /// Makes fragments of the listed pixels, less those of which no sample passes.
+    #[inline(always)]
+    fn test_list<S: Lanes>(&mut self, s: S, tests: bool) {
+        let plan = self.work.plan;
+        let (offsets, count) = (self.samples.offsets(), self.samples.count());
+        self.scratch.in_order.fragments.clear();
+        let quads = self.listing == Listing::Quads;
+        let pixels_each = if quads { QUAD } else { 1 };
+        let end = self.scratch.in_order.small.listed.len() * pixels_each;
+        for from in (0..end).step_by(LANES) {
+            let scratch = &*self.scratch.in_order.small;
+            let pixels = if quads {
+                scratch.listed.four_quads(s, from / QUAD)
+            } else {
+                scratch.listed.sixteen(s, from)
+            };
+            let listed = u16::MAX >> (LANES - (end - from).min(LANES));
+            let places = scratch.small.pixels_in_tile(s, pixels);
+            let first = scratch.small.distances(s, pixels);
+            let zero = <u32x16<S> as SimdBase<S>>::splat(s, 0);
+            let (mut samples, mut any) = (zero, 0);
+            for sample in 0..count {
+                let mut mask = listed;
+                if N > 1 || quads {
+                    mask &= scratch.small.covers(s, sample, pixels);
+                }
+                if tests && mask != 0 {
+                    let distances = moved(first, offsets[0], offsets[sample]);
+                    let new = scratch.depth(s, pixels, distances);
+                    let new = plan.tests.stored.of(s, new);
+                    let depths = bits_of(self.job.depth.as_flattened());
+                    let stored = s.gather(depths, indices_of(s, places, [count, sample]));
+                    let stored: f32x16<S> = stored.bitcast();
+                    let mut stored = stored.to_array();
+                    let stored = (!self.job.depth.is_empty()).then_some(&mut stored);
+                    mask = if plan.timing == TestTiming::Early {
+                        let stored = StoredSamples {
+                            depth: stored,
+                            stencil: None,
+                        };
+                        plan.tests.run(s, new, mask, u16::MAX, stored)
+                    } else {
+                        mask & plan.tests.would_pass(s, new, stored)
+                    };
+                }
+                any |= mask;
+                if N > 1 || quads {
+                    let bit = <u32x16<S> as SimdBase<S>>::splat(s, 1 << sample);
+                    samples |= s.mask_from_bits(mask).select(bit, zero);
+                }
+                if plan.query.is_some() && tests && plan.timing == TestTiming::Early {
+                    self.passed += u64::from(mask.count_ones());
+                }
+            }
+            if quads {
+                // A quad of which any pixel is left stays whole.
+                let of_quads = (any | any >> 1 | any >> 2 | any >> 3) & 0x1111;
+                any = of_quads * 0xF;
+            }
+            let fragments = &mut self.scratch.in_order.fragments;
+            fragments.add(s, any, [pixels.0, places, samples]);
+        }
+        self.scratch.in_order.fragments.end();
+    }
+
+    /// Queues the next packet of different pixels, from a fragment on; gives the number of its
+    /// fragments.
+    #[inline(always)]
+    fn queue_pixels<S: Lanes>(&mut self, s: S, from: usize, tests: bool) -> usize {
+        let plan = self.work.plan;
+        let (offsets, samples) = (self.samples.offsets(), self.samples.count());
+        let InOrderScratch {
+            small: scratch,
+            fragments,
+            last_packet,
+            ..
+        } = &mut self.scratch.in_order;
+        let quads = self.listing == Listing::Quads;
+        // Quads begin a packet of their own.
+        let used = if quads {
+            0
+        } else {
+            self.scratch.queue.open_pixels()
+        };
+        if used == 0 {
+            last_packet.begin();
+        }
+        let [pixels, places, of_samples] = fragments.sixteen(from, used);
+        let (pixels, places) = (Pixels(u32x16::load_array_ref(s, pixels)), *places);
+        let of_samples = u32x16::load_array_ref(s, of_samples);
+        let wanted = LANES.min(used + fragments.len() - from);
+        let mut masks = [lanes_between(used, wanted); N];
+        if N > 1 || quads {
+            for (mask, sample) in masks.iter_mut().zip(0u32..) {
+                *mask &= s.sign_bits((of_samples << (31 - sample)).bitcast());
+            }
+        }
+        let alive = masks.iter().fold(0, |any, mask| any | mask);
+        let mut end = last_packet.add(&places, alive).min(wanted);
+        if quads {
+            end -= end % QUAD;
+        }
+        if end == used {
+            self.scratch.queue.close_pixels();
+            return 0;
+        }
+        let (lanes, count) = (lanes_between(used, end), end - used);
+        let row = Row {
+            pixels,
+            lanes,
+            is_open: used != 0,
+        };
+        for mask in &mut masks {
+            *mask &= lanes;
+        }
+        let mut packet = PixelPacket {
+            place: place_of(&places, quads),
+            masks,
+            front: bits_of_row(s, scratch.packet.front, row),
+        };
+        let first = scratch.small.distances(s, pixels);
+        if tests {
+            let place = &packet.place;
+            for (sample, offset) in offsets.into_iter().enumerate().take(samples) {
+                let mask = &mut packet.masks[sample];
+                let new = scratch.depth(s, pixels, moved(first, offsets[0], offset));
+                let new = plan.tests.stored.of(s, new);
+                let fragments = (new, *mask, packet.front);
+                let at = (place, samples, sample);
+                *mask = run_apart(s, &plan.tests, fragments, at, self.job);
+            }
+            if plan.tests.writes_depth() {
+                self.scratch.hiz.invalidate(place.blocks());
+            }
+        }
+        if tests || plan.timing == TestTiming::Early && plan.tests.is_empty() {
+            if plan.query.is_some() {
+                let counts = packet.masks.iter().map(|mask| u64::from(mask.count_ones()));
+                self.passed += counts.sum::<u64>();
+            }
+            if packet.masks == [0; N] {
+                return count;
+            }
+        }
+        if used == 0 && self.scratch.queue.is_full() {
+            self.flush();
+        }
+        let inputs = self.scratch.queue.push_pixels(&packet, lanes);
+        let small = &*self.scratch.in_order.small;
+        let center = moved(first, offsets[0], [0.5; 2]);
+        let source = &self.source;
+        small
+            .planes
+            .varyings(s, row, source, center, inputs.varyings);
+        let set = inputs.lanes;
+        if let Some([to_x, to_y, to_z, to_w]) = inputs.position {
+            let tile = [self.work.shape.x, self.work.shape.y];
+            let places = u32x16::load_array(s, places);
+            let [x, y] = WindowPixels::of_places(s, places, tile).coordinates([0.5; 2]);
+            replace(s, to_x, set, x);
+            replace(s, to_y, set, y);
+            let depth = small.depth(s, pixels, center);
+            replace(s, to_z, set, clamp_depth(s, depth, inputs.depth_range));
+            replace(s, to_w, set, small.inverse_w(s, row, center));
+        }
+        for (to, offset) in inputs.depths.iter_mut().zip(offsets) {
+            let depth = small.depth(s, pixels, moved(first, offsets[0], offset));
+            replace(s, to, set, clamp_depth(s, depth, inputs.depth_range));
+        }
+        if quads || end < wanted {
+            // Quads, or a pixel that comes again, begin a packet.
+            self.scratch.queue.close_pixels();
+        }
+        let [fragments, packets] = &mut self.scratch.statistics.fragments_listed_in_order;
+        *fragments += u64::from((alive & lanes).count_ones());
+        *packets += u64::from(used == 0);
+        count
+    }
+}
+
+/// The distances of another place in each pixel: exact, because places are multiples of 1/256.
+#[inline(always)]
+fn moved<S: Lanes>([x, y]: [f32x16<S>; 2], from: [f32; 2], to: [f32; 2]) -> [f32x16<S>; 2] {
+    [x + (to[0] - from[0]), y + (to[1] - from[1])]
+}
+
+/// The place of sixteen pixels; if they are quads, that of four quads.
+#[inline(always)]
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "a tile has 4096 pixels at most"
+)]
+pub(super) fn place_of(pixels: &[u32; LANES], quads: bool) -> Place {
+    if quads {
+        let quad = |number: usize| (pixels[number * QUAD] / QUAD as u32) as u16;
+        return Place::Quads([quad(0), quad(1), quad(2), quad(3)]);
+    }
+    let mut places = [0; LANES];
+    for (to, pixel) in places.iter_mut().zip(pixels) {
+        *to = *pixel as u16;
+    }
+    Place::Pixels(places)
+}

@@ -1,0 +1,209 @@
+//! Small triangles in order, sixteen at a time.
+//!
+//! A sprite of 4×4 pixels is two triangles of ten pixels at most, which lie in three packets or
+//! four: drawn one by one, they leave most lanes idle, and what a triangle costs beside its
+//! fragments is most of the time. Here sixteen triangles are covered together, their pixels are
+//! listed in the order of the triangles, and the list is tested and fills packets sixteen by
+//! sixteen. Order is kept: a packet holds no pixel twice, and ends before one that comes again. If
+//! the shader looks at the neighbours of a pixel, the list is one of quads.
+//!
+//! ```text
+//!   16 triangles ─▶ list of pixels ─▶ early tests ─▶ packets of different pixels ─▶ queue
+//!        └─ a triangle that is large, or of one colour, is drawn alone, between two lists
+//! ```
+
+use super::InOrder;
+use crate::bounds::primitives::{Triangle, TrianglePacket};
+use crate::fragment::cross_triangle::{CrossPlanes, Row, bits_of_row};
+use crate::plan::tile_plan::TilePlan;
+use crate::raster::pixel_list::{PixelList, Pixels};
+use crate::raster::small::{Boxes, SIDE, SmallTriangles};
+use crate::tile_path::TilePath;
+use estampe_simd::{LANES, Lanes, Select, SimdBase, dispatch, f32x16};
+use estampe_types::state::ConservativeMode;
+
+/// Fewer triangles than this are drawn one by one.
+const LEAST: u32 = 3;
+
+/// Triangles that are drawn together, in order.
+#[derive(Debug, Default)]
+pub(super) struct Batch<'a> {
+    triangles: [Option<&'a Triangle>; LANES],
+    len: usize,
+    /// How many of them are lower than [`SIDE`] pixels and as narrow.
+    small: u32,
+}
+
+impl<'a> Batch<'a> {
+    /// Adds a triangle; returns true if the batch is full.
+    #[inline(always)]
+    pub(super) fn add(&mut self, triangle: &'a Triangle) -> bool {
+        self.triangles[self.len % LANES] = Some(triangle);
+        self.len += 1;
+        self.small += u32::from(is_small(triangle));
+        self.len == LANES
+    }
+
+    /// The triangles, in order, with their lanes.
+    #[inline(always)]
+    fn iter(&self) -> impl Iterator<Item = (usize, &'a Triangle)> {
+        let triangles = self.triangles.iter().take(self.len).enumerate();
+        triangles.filter_map(|(lane, triangle)| Some((lane, (*triangle)?)))
+    }
+}
+
+/// Returns true if a triangle's box is small, whatever part of it the tile shows.
+#[inline(always)]
+fn is_small(triangle: &Triangle) -> bool {
+    const EXTENT: i32 = SIDE * 256;
+    let ([x0, x1, x2], y) = (triangle.x, triangle.y);
+    let across = x0.max(x1).max(x2) - x0.min(x1).min(x2);
+    (across < EXTENT) & (y[2] - y[0] < EXTENT)
+}
+
+/// Memory of one worker.
+#[derive(Debug)]
+pub(super) struct SmallScratch<const N: usize> {
+    /// The batch at hand.
+    pub(super) packet: TrianglePacket,
+    pub(super) small: SmallTriangles<N>,
+    pub(super) planes: CrossPlanes,
+    pub(super) listed: PixelList,
+}
+
+impl<const N: usize> Default for SmallScratch<N> {
+    fn default() -> Self {
+        Self {
+            packet: TrianglePacket::EMPTY,
+            small: SmallTriangles::default(),
+            planes: CrossPlanes::default(),
+            listed: PixelList::default(),
+        }
+    }
+}
+
+impl<const N: usize> SmallScratch<N> {
+    /// 1/w at the centres of a row's pixels.
+    #[inline(always)]
+    pub(super) fn inverse_w<S: Lanes>(
+        &self,
+        s: S,
+        row: Row<S>,
+        [x, y]: [f32x16<S>; 2],
+    ) -> f32x16<S> {
+        let lane = row.pixels.lane();
+        let iw = &self.packet.iw;
+        let by_x = x * s.permute_f32(f32x16::load_array_ref(s, &iw.dx), lane);
+        let by_y = y * s.permute_f32(f32x16::load_array_ref(s, &iw.dy), lane);
+        let origin = s.permute_f32(f32x16::load_array_ref(s, &iw.origin), lane);
+        let value = origin + (by_x + by_y);
+        let is_equal = s.mask_from_bits(bits_of_row(s, self.packet.equal_w, row));
+        is_equal.select(origin, value)
+    }
+
+    /// Depth at places of sixteen pixels, given by their distances from the planes' origins; not
+    /// yet clamped.
+    #[inline(always)]
+    pub(super) fn depth<S: Lanes>(
+        &self,
+        s: S,
+        pixels: Pixels<S>,
+        [x, y]: [f32x16<S>; 2],
+    ) -> f32x16<S> {
+        let lane = pixels.lane();
+        let z = &self.packet.z;
+        let by_x = x * s.permute_f32(f32x16::load_array_ref(s, &z.dx), lane);
+        let by_y = y * s.permute_f32(f32x16::load_array_ref(s, &z.dy), lane);
+        s.permute_f32(f32x16::load_array_ref(s, &z.origin), lane) + (by_x + by_y)
+    }
+}
+
+/// What is listed of small triangles.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Listing {
+    /// Nothing: they are drawn one by one.
+    None,
+    /// Their pixels.
+    Pixels,
+    /// Their quads, because the shader looks at neighbours.
+    Quads,
+}
+
+impl Listing {
+    /// The listing of a draw.
+    pub(super) fn of(plan: &TilePlan<'_>) -> Self {
+        let key = plan.pipeline.key();
+        let primitive = &plan.pipeline.descriptor().primitive;
+        let is_common = plan.path != TilePath::InOrderPackets
+            && key.sample_mask.is_none()
+            && plan.cut_samples.is_none()
+            && primitive.conservative == ConservativeMode::Disabled;
+        match is_common {
+            true if key.needs_no_quads => Self::Pixels,
+            true => Self::Quads,
+            false => Self::None,
+        }
+    }
+}
+
+impl<const N: usize> InOrder<'_, '_, '_, N> {
+    /// Draws a batch, and empties it.
+    #[inline(always)]
+    pub(super) fn batch<S: Lanes>(&mut self, s: S, batch: &mut Batch<'_>) {
+        let mut small = 0;
+        if self.listing != Listing::None && batch.small >= LEAST {
+            small = self.cover_batch(batch);
+        }
+        let mut next = 0;
+        for (lane, triangle) in batch.iter() {
+            if lane < next {
+                continue;
+            }
+            let run = (small >> lane).trailing_ones();
+            if run >= LEAST {
+                let lanes = ((1u32 << run) - 1) << lane;
+                self.list_pixels((lanes & 0xFFFF) as u16);
+                next = lane + run as usize;
+            } else {
+                self.triangle(s, triangle);
+                next = lane + 1;
+            }
+        }
+        (batch.len, batch.small) = (0, 0);
+    }
+
+    /// Covers the triangles of a batch. Returns those that may be listed.
+    #[inline(never)]
+    fn cover_batch(&mut self, batch: &Batch<'_>) -> u16 {
+        // Code for more samples is not needed, and that of the scalar level takes too long.
+        if const { N > 4 } {
+            return 0;
+        }
+        dispatch!(@wide self.work.level, s => self.cover_lanes(s, batch), scalar => 0)
+    }
+
+    #[inline(always)]
+    fn cover_lanes<S: Lanes>(&mut self, s: S, batch: &Batch<'_>) -> u16 {
+        let scratch = &mut *self.scratch.in_order.small;
+        for (lane, triangle) in batch.iter() {
+            scratch.packet.set(lane, triangle);
+        }
+        let lanes = u16::MAX >> (LANES - batch.len.clamp(1, LANES));
+        let tile = (self.work.shape, &self.work.rect);
+        let packet = &scratch.packet;
+        let small = &mut scratch.small;
+        let boxes = match self.listing {
+            Listing::Quads => Boxes::OfQuads,
+            Listing::None | Listing::Pixels => Boxes::UpTo(SIDE),
+        };
+        let small = small.cover_boxes(s, boxes, (packet, lanes), tile, self.samples);
+        if small.count_ones() < LEAST {
+            return 0;
+        }
+        scratch.planes.set(s, packet, small, &self.source);
+        if self.gathers {
+            return small & !scratch.planes.constant(s, small, self.source.modes);
+        }
+        small
+    }
+}
