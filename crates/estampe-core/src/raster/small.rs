@@ -35,11 +35,50 @@ const EXTENT: i32 = 1 << 12;
 
 /// The boxes of small triangles.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Boxes {
-    /// Of so many columns and rows at most: [`SIDE`] or fewer.
-    UpTo(i32),
-    /// Of quads whole: they begin at a quad, and have [`SIDE`] columns and rows at most.
-    OfQuads,
+pub(crate) struct Boxes {
+    /// The columns and rows at most: [`SIDE`] or fewer.
+    pub(crate) side: i32,
+    /// True if they begin at a quad, so that they hold quads whole.
+    pub(crate) quads: bool,
+}
+
+/// Lanes that are a part of a larger triangle, whose box has up to twice [`SIDE`] columns and rows:
+/// a quarter of it, of [`SIDE`] columns and rows.
+#[derive(Debug, Default)]
+#[repr(C, align(64))]
+pub(crate) struct Parts {
+    /// By lane: 0 or [`SIDE`], the part's first column and row in the box.
+    right: [i32; LANES],
+    below: [i32; LANES],
+    lanes: u16,
+}
+
+impl Parts {
+    /// No lane is a part.
+    pub(crate) const WHOLE: Self = Self {
+        right: [0; LANES],
+        below: [0; LANES],
+        lanes: 0,
+    };
+
+    /// The quarters of a triangle that is divided.
+    pub(crate) const QUARTERS: [[i32; 2]; 4] = [[0, 0], [SIDE, 0], [0, SIDE], [SIDE, SIDE]];
+
+    /// Makes a lane a part, or a whole triangle.
+    #[inline(always)]
+    pub(crate) fn set(&mut self, lane: usize, part: Option<[i32; 2]>) {
+        let [right, below] = part.unwrap_or_default();
+        (self.right[lane], self.below[lane]) = (right, below);
+        self.lanes = self.lanes & !(1 << lane) | u16::from(part.is_some()) << lane;
+    }
+
+    #[inline(always)]
+    fn offsets<S: Lanes>(&self, s: S) -> (i32x16<S>, i32x16<S>) {
+        (
+            i32x16::load_array_ref(s, &self.right),
+            i32x16::load_array_ref(s, &self.below),
+        )
+    }
 }
 
 /// Small triangles of one packet inside a tile.
@@ -86,18 +125,20 @@ impl<const N: usize> SmallTriangles<N> {
         } else {
             SIDE_OF_SAMPLES
         };
-        self.cover_boxes(s, Boxes::UpTo(side), (packet, lanes), tile, samples)
+        let boxes = Boxes { side, quads: false };
+        self.cover_boxes(s, boxes, &Parts::WHOLE, (packet, lanes), (tile, samples))
     }
 
-    /// [`SmallTriangles::cover`] of the triangles whose boxes are as given.
+    /// [`SmallTriangles::cover`] of the triangles whose boxes are as given, or of parts of larger
+    /// ones, of which all or none are covered.
     #[inline(always)]
     pub(crate) fn cover_boxes<S: Lanes>(
         &mut self,
         s: S,
         boxes: Boxes,
+        parts: &Parts,
         (packet, lanes): (&TrianglePacket, u16),
-        (tile, rect): (TileShape, &PixelRect),
-        samples: SampleSet<N>,
+        ((tile, rect), samples): ((TileShape, &PixelRect), SampleSet<N>),
     ) -> u16 {
         let splat = |value: i32| <i32x16<S> as SimdBase<S>>::splat(s, value);
         let corners = Corners::new(s, packet);
@@ -113,20 +154,29 @@ impl<const N: usize> SmallTriangles<N> {
         let down = ((y2 - y_ends[0]) >> 8).min(splat(tile.y + rect.y1 - 1)) - y_first;
         let is_empty = across.simd_lt(splat(0)) | down.simd_lt(splat(0));
         // Boxes of quads begin at a quad: its first column or row may lie before the box.
-        let (before, above, side) = match boxes {
-            Boxes::UpTo(side) => (splat(0), splat(0), splat(side)),
-            Boxes::OfQuads => (x_first & splat(1), y_first & splat(1), splat(SIDE)),
-        };
-        let (x_first, y_first) = (x_first - before, y_first - above);
-        let (across, down) = (across + before, down + above);
+        let (mut before, mut above) = (splat(0), splat(0));
+        if boxes.quads {
+            (before, above) = (x_first & splat(1), y_first & splat(1));
+        }
+        let (mut across, mut down) = (across + before, down + above);
+        let is_part = s.mask_from_bits(parts.lanes);
+        let side = is_part.select(splat(2 * SIDE), splat(boxes.side));
         let extent = (x_max - x_min).max(y2 - y0);
         let is_small = extent.simd_lt(splat(EXTENT)) & across.simd_lt(side) & down.simd_lt(side);
         let small = s.bits_of_mask(is_small) & lanes;
         if small == 0 {
             return 0;
         }
-        let among = s.mask_from_bits(small);
-        let among = among & !is_empty;
+        // A part begins where the part before it ends, at most.
+        let (right, below) = parts.offsets(s);
+        let x_first = x_first - before + right;
+        let y_first = y_first - above + below;
+        before = right.simd_eq(splat(0)).select(before, splat(0));
+        above = below.simd_eq(splat(0)).select(above, splat(0));
+        across = (across - right).min(splat(SIDE - 1));
+        down = (down - below).min(splat(SIDE - 1));
+        let is_empty = is_empty | across.simd_lt(splat(0)) | down.simd_lt(splat(0));
+        let among = s.mask_from_bits(small) & !is_empty;
         let (columns, rows) = (largest(s, across, among), largest(s, down, among));
 
         let [first_x, first_y] = positions[0];
@@ -205,7 +255,7 @@ impl<const N: usize> SmallTriangles<N> {
     }
 
     /// Lists the first pixels of the quads of the triangles in `lanes` of which any sample is
-    /// covered. Boxes must be [those of quads](Boxes::OfQuads).
+    /// covered. Boxes must be [those of quads](Boxes::quads).
     #[inline(always)]
     pub(crate) fn list_quads<S: Lanes>(&self, s: S, lanes: u16, list: &mut PixelList) {
         let mut any = self.covered_by_any(s);

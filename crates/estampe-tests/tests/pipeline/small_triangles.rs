@@ -2,7 +2,7 @@
 //! that are set up sixteen at a time.
 
 use estampe::TilePath;
-use estampe_tests::geometry::{Style, triangles};
+use estampe_tests::geometry::{Style, clip_at, triangles};
 use estampe_tests::mixed_draws::Mixture;
 use estampe_tests::shaders::{Colored, Cutout, FlatColored, Gradients, Halved, Probe, Scalar};
 use estampe_tests::{Case, CaseDraw, ExpectedPaths, Random, TestShader, check_paths};
@@ -188,6 +188,47 @@ fn lists_of_pixels_pass_through_every_state() {
         let [fragments, packets] = statistics.fragments_listed_in_order;
         assert!(
             packets > 100 && fragments > packets * 4,
+            "{samples} samples: {fragments} fragments are in {packets} packets"
+        );
+    }
+}
+
+/// Triangles of up to sixteen pixels across are listed as quarters of their boxes, by pixels and by
+/// quads; those that are a little larger are drawn alone.
+///
+/// Rows: R1, R6, O5.
+#[test]
+fn middling_triangles_in_order_are_divided() {
+    for samples in [1, 4] {
+        let topic = format!("small_triangles/quarters_{samples}");
+        let paths = ExpectedPaths(&[TilePath::InOrderQuads]);
+        let statistics = check_paths(&topic, 24, paths, |random| {
+            let mut case = Case::new([150, 100], samples);
+            for _ in 0..2 {
+                let mut vertices = triangles(random, Style::Small, case.size, 60);
+                for corners in vertices.chunks_exact_mut(3) {
+                    let middle = [random.range(0.0, 150.0), random.range(0.0, 100.0)];
+                    let reach = random.pick(&[4.0, 5.0, 6.0, 7.0, 7.9, 8.2]);
+                    for corner in corners {
+                        let at = middle.map(|at| at + random.range(-reach, reach));
+                        let [_, _, z, w] = corner.position;
+                        corner.position = clip_at(case.size, at, z / w, w);
+                    }
+                }
+                let shader: TestShader = match random.below(3) {
+                    0 => Colored.into(),
+                    1 => Cutout.into(),
+                    _ => Probe::random(random).into(),
+                };
+                let mut draw = CaseDraw::new(shader, &vertices);
+                draw.blend = Some(BlendState::ADDITIVE);
+                case.draws.push(draw);
+            }
+            case
+        });
+        let [fragments, packets] = statistics.fragments_listed_in_order;
+        assert!(
+            packets > 0 && fragments > packets * 8,
             "{samples} samples: {fragments} fragments are in {packets} packets"
         );
     }

@@ -157,9 +157,10 @@ fn draw_entries<S: Lanes, const N: usize>(
                         continue;
                     }
                     let triangle = &work.chunk.taken_apart(packet)[lane.get()];
-                    if batch.add(triangle) {
+                    if !batch.has_room(triangle) {
                         drawing.batch(s, &mut batch);
                     }
+                    batch.add(triangle);
                 }
             }
             BinEntry::Line(number) => drawing.line(&work.chunk.lines[number as usize]),

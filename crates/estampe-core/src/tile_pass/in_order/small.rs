@@ -5,7 +5,8 @@
 //! fragments is most of the time. Here sixteen triangles are covered together, their pixels are
 //! listed in the order of the triangles, and the list is tested and fills packets sixteen by
 //! sixteen. Order is kept: a packet holds no pixel twice, and ends before one that comes again. If
-//! the shader looks at the neighbours of a pixel, the list is one of quads.
+//! the shader looks at the neighbours of a pixel, the list is one of quads. A triangle of up to
+//! sixteen pixels across and down, as half of a glyph, is four lanes: the quarters of its box.
 //!
 //! ```text
 //!   16 triangles ─▶ list of pixels ─▶ early tests ─▶ packets of different pixels ─▶ queue
@@ -17,7 +18,7 @@ use crate::bounds::primitives::{Triangle, TrianglePacket};
 use crate::fragment::cross_triangle::{CrossPlanes, Row, bits_of_row};
 use crate::plan::tile_plan::TilePlan;
 use crate::raster::pixel_list::{PixelList, Pixels};
-use crate::raster::small::{Boxes, SIDE, SmallTriangles};
+use crate::raster::small::{Boxes, Parts, SIDE, SmallTriangles};
 use crate::tile_path::TilePath;
 use estampe_simd::{LANES, Lanes, Select, SimdBase, dispatch, f32x16};
 use estampe_types::state::ConservativeMode;
@@ -25,40 +26,65 @@ use estampe_types::state::ConservativeMode;
 /// Fewer triangles than this are drawn one by one.
 const LEAST: u32 = 3;
 
-/// Triangles that are drawn together, in order.
+/// The extent in 1/256 pixel from which on triangles are divided.
+const SMALL: i32 = SIDE * 256;
+
+/// The greater one of a triangle's width and height, in 1/256 pixel.
+#[inline(always)]
+fn extent(triangle: &Triangle) -> i32 {
+    let ([x0, x1, x2], y) = (triangle.x, triangle.y);
+    let across = x0.max(x1).max(x2) - x0.min(x1).min(x2);
+    across.max(y[2] - y[0])
+}
+
+/// Triangles that are drawn together, in order, and what they are divided into.
 #[derive(Debug, Default)]
 pub(super) struct Batch<'a> {
-    triangles: [Option<&'a Triangle>; LANES],
+    /// By lane: a triangle, and which quarter of it, if it is divided.
+    lanes: [Option<(&'a Triangle, Option<usize>)>; LANES],
     len: usize,
-    /// How many of them are lower than [`SIDE`] pixels and as narrow.
+    /// How many lanes are small triangles or quarters of larger ones.
     small: u32,
 }
 
 impl<'a> Batch<'a> {
-    /// Adds a triangle; returns true if the batch is full.
+    /// The lanes that a triangle takes.
     #[inline(always)]
-    pub(super) fn add(&mut self, triangle: &'a Triangle) -> bool {
-        self.triangles[self.len % LANES] = Some(triangle);
-        self.len += 1;
-        self.small += u32::from(is_small(triangle));
-        self.len == LANES
+    fn lanes_of(triangle: &Triangle) -> usize {
+        // A box may have a column or a row more than the extent says: such a triangle is drawn
+        // alone, if its box is not small.
+        if (SMALL..2 * SMALL).contains(&extent(triangle)) {
+            Parts::QUARTERS.len()
+        } else {
+            1
+        }
     }
 
-    /// The triangles, in order, with their lanes.
+    /// Returns true if there are lanes for a triangle.
     #[inline(always)]
-    fn iter(&self) -> impl Iterator<Item = (usize, &'a Triangle)> {
-        let triangles = self.triangles.iter().take(self.len).enumerate();
-        triangles.filter_map(|(lane, triangle)| Some((lane, (*triangle)?)))
+    pub(super) fn has_room(&self, triangle: &Triangle) -> bool {
+        self.len + Self::lanes_of(triangle) <= LANES
     }
-}
 
-/// Returns true if a triangle's box is small, whatever part of it the tile shows.
-#[inline(always)]
-fn is_small(triangle: &Triangle) -> bool {
-    const EXTENT: i32 = SIDE * 256;
-    let ([x0, x1, x2], y) = (triangle.x, triangle.y);
-    let across = x0.max(x1).max(x2) - x0.min(x1).min(x2);
-    (across < EXTENT) & (y[2] - y[0] < EXTENT)
+    /// Adds a triangle, for which there must be room.
+    #[inline(always)]
+    pub(super) fn add(&mut self, triangle: &'a Triangle) {
+        let count = Self::lanes_of(triangle);
+        for part in 0..count {
+            let part = (count > 1).then_some(part);
+            self.lanes[self.len % LANES] = Some((triangle, part));
+            self.len += 1;
+        }
+        let is_small = extent(triangle) < 2 * SMALL;
+        self.small += u32::from(is_small) * if count > 1 { 4 } else { 1 };
+    }
+
+    /// The lanes: number, triangle, quarter.
+    #[inline(always)]
+    fn iter(&self) -> impl Iterator<Item = (usize, &'a Triangle, Option<usize>)> {
+        let lanes = self.lanes.iter().take(self.len).enumerate();
+        lanes.filter_map(|(lane, of)| of.map(|(triangle, part)| (lane, triangle, part)))
+    }
 }
 
 /// Memory of one worker.
@@ -66,6 +92,7 @@ fn is_small(triangle: &Triangle) -> bool {
 pub(super) struct SmallScratch<const N: usize> {
     /// The batch at hand.
     pub(super) packet: TrianglePacket,
+    parts: Parts,
     pub(super) small: SmallTriangles<N>,
     pub(super) planes: CrossPlanes,
     pub(super) listed: PixelList,
@@ -75,6 +102,7 @@ impl<const N: usize> Default for SmallScratch<N> {
     fn default() -> Self {
         Self {
             packet: TrianglePacket::EMPTY,
+            parts: Parts::WHOLE,
             small: SmallTriangles::default(),
             planes: CrossPlanes::default(),
             listed: PixelList::default(),
@@ -155,8 +183,9 @@ impl<const N: usize> InOrder<'_, '_, '_, N> {
             small = self.cover_batch(batch);
         }
         let mut next = 0;
-        for (lane, triangle) in batch.iter() {
-            if lane < next {
+        for (lane, triangle, part) in batch.iter() {
+            // A triangle whose quarters are not listed is drawn with the first of them.
+            if lane < next || part.is_some_and(|part| part > 0) {
                 continue;
             }
             let run = (small >> lane).trailing_ones();
@@ -185,18 +214,21 @@ impl<const N: usize> InOrder<'_, '_, '_, N> {
     #[inline(always)]
     fn cover_lanes<S: Lanes>(&mut self, s: S, batch: &Batch<'_>) -> u16 {
         let scratch = &mut *self.scratch.in_order.small;
-        for (lane, triangle) in batch.iter() {
+        for (lane, triangle, part) in batch.iter() {
             scratch.packet.set(lane, triangle);
+            let part = part.and_then(|part| Parts::QUARTERS.get(part));
+            scratch.parts.set(lane, part.copied());
         }
         let lanes = u16::MAX >> (LANES - batch.len.clamp(1, LANES));
         let tile = (self.work.shape, &self.work.rect);
         let packet = &scratch.packet;
         let small = &mut scratch.small;
-        let boxes = match self.listing {
-            Listing::Quads => Boxes::OfQuads,
-            Listing::None | Listing::Pixels => Boxes::UpTo(SIDE),
+        let boxes = Boxes {
+            side: SIDE,
+            quads: self.listing == Listing::Quads,
         };
-        let small = small.cover_boxes(s, boxes, (packet, lanes), tile, self.samples);
+        let of_lanes = (packet, lanes);
+        let small = small.cover_boxes(s, boxes, &scratch.parts, of_lanes, (tile, self.samples));
         if small.count_ones() < LEAST {
             return 0;
         }
