@@ -1,6 +1,6 @@
 //! Planes: values that are linear in the window.
 
-use estampe_simd::LANES;
+use estampe_simd::{LANES, Lanes, SimdBase, f32x16, u32x16};
 
 /// A value that is linear in the window: `origin + ((X − x₀)·dx + (Y − y₀)·dy)`.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -33,6 +33,15 @@ impl PlanePacket {
             dx: self.dx[lane],
             dy: self.dy[lane],
         }
+    }
+
+    /// The values of the planes that `lane` names, at these distances from their origins.
+    #[inline(always)]
+    pub(crate) fn at<S: Lanes>(&self, s: S, lane: u32x16<S>, [x, y]: [f32x16<S>; 2]) -> f32x16<S> {
+        let origin = s.permute_f32(f32x16::load_array_ref(s, &self.origin), lane);
+        let dx = s.permute_f32(f32x16::load_array_ref(s, &self.dx), lane);
+        let dy = s.permute_f32(f32x16::load_array_ref(s, &self.dy), lane);
+        origin + (x * dx + y * dy)
     }
 
     #[inline(always)]

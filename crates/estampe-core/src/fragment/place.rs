@@ -18,12 +18,6 @@ pub(crate) enum Place {
     Pixels([u16; LANES]),
 }
 
-impl Default for Place {
-    fn default() -> Self {
-        Self::Packet(0)
-    }
-}
-
 /// The order in which an attachment stores its packets: the samples of a packet follow each other,
 /// and so do the words of a sample.
 #[derive(Debug, Clone, Copy)]
@@ -55,6 +49,7 @@ fn packet_and_lane(place: u16) -> (usize, usize) {
     (usize::from(place) / LANES, usize::from(place) % LANES)
 }
 
+/// [`indices_of`] places that are stored in 16 bits.
 #[inline(always)]
 fn pixel_indices<S: Lanes>(s: S, places: &[u16; LANES], lines: usize, line: usize) -> u32x16<S> {
     let mut wide = [0; LANES];

@@ -359,19 +359,13 @@ impl<const N: usize> SmallTriangles<N> {
         let [from_first_x, from_first_y] =
             [0, 1].map(|axis| offsets[sample % N][axis] - offsets[0][axis]);
         let line = <u32x16<S> as SimdBase<S>>::splat(s, (sample * LANES) as u32);
-        let origin = f32x16::load_array_ref(s, &packet.z.origin);
-        let dx = f32x16::load_array_ref(s, &packet.z.dx);
-        let dy = f32x16::load_array_ref(s, &packet.z.dy);
         for (pixels, (places, depths)) in list.sixteens() {
             let pixels = Pixels(u32x16::load_array_ref(s, pixels));
-            let lane = pixels.lane();
             let [mut x, mut y] = self.distances(s, pixels);
             if const { N > 1 } {
                 (x, y) = (x + from_first_x, y + from_first_y);
             }
-            let by_x = x * s.permute_f32(dx, lane);
-            let by_y = y * s.permute_f32(dy, lane);
-            let depth = s.permute_f32(origin, lane) + (by_x + by_y);
+            let depth = packet.z.at(s, pixels.lane(), [x, y]);
             stored.of(s, depth).store_array(depths);
             (self.places(s, pixels) + line).store_array(places);
         }

@@ -90,7 +90,7 @@ impl<const N: usize> InOrder<'_, '_, '_, N> {
                 }
                 if tests && mask != 0 {
                     let distances = moved(first, offsets[0], offsets[sample]);
-                    let new = scratch.depth(s, pixels, distances);
+                    let new = scratch.packet.z.at(s, pixels.lane(), distances);
                     let new = plan.tests.stored.of(s, new);
                     let depths = bits_of(self.job.depth.as_flattened());
                     let stored = s.gather(depths, indices_of(s, places, [count, sample]));
@@ -187,7 +187,8 @@ impl<const N: usize> InOrder<'_, '_, '_, N> {
             let place = &packet.place;
             for (sample, offset) in offsets.into_iter().enumerate().take(samples) {
                 let mask = &mut packet.masks[sample];
-                let new = scratch.depth(s, pixels, moved(first, offsets[0], offset));
+                let distances = moved(first, offsets[0], offset);
+                let new = scratch.packet.z.at(s, pixels.lane(), distances);
                 let new = plan.tests.stored.of(s, new);
                 let fragments = (new, *mask, packet.front);
                 let at = (place, samples, sample);
@@ -223,12 +224,13 @@ impl<const N: usize> InOrder<'_, '_, '_, N> {
             let [x, y] = WindowPixels::of_places(s, places, tile).coordinates([0.5; 2]);
             replace(s, to_x, set, x);
             replace(s, to_y, set, y);
-            let depth = small.depth(s, pixels, center);
+            let depth = small.packet.z.at(s, pixels.lane(), center);
             replace(s, to_z, set, clamp_depth(s, depth, inputs.depth_range));
             replace(s, to_w, set, small.inverse_w(s, row, center));
         }
         for (to, offset) in inputs.depths.iter_mut().zip(offsets) {
-            let depth = small.depth(s, pixels, moved(first, offsets[0], offset));
+            let distances = moved(first, offsets[0], offset);
+            let depth = small.packet.z.at(s, pixels.lane(), distances);
             replace(s, to, set, clamp_depth(s, depth, inputs.depth_range));
         }
         if quads || end < wanted {

@@ -17,7 +17,7 @@ use super::InOrder;
 use crate::bounds::primitives::{Triangle, TrianglePacket};
 use crate::fragment::cross_triangle::{CrossPlanes, Row, bits_of_row};
 use crate::plan::tile_plan::TilePlan;
-use crate::raster::pixel_list::{PixelList, Pixels};
+use crate::raster::pixel_list::PixelList;
 use crate::raster::small::{Boxes, Parts, SIDE, SmallTriangles};
 use crate::tile_path::TilePath;
 use estampe_simd::{LANES, Lanes, Select, SimdBase, dispatch, f32x16};
@@ -111,38 +111,18 @@ impl<const N: usize> Default for SmallScratch<N> {
 }
 
 impl<const N: usize> SmallScratch<N> {
-    /// 1/w at the centres of a row's pixels.
+    /// 1/w at the centres of a row's pixels, given by their distances from the planes' origins.
     #[inline(always)]
     pub(super) fn inverse_w<S: Lanes>(
         &self,
         s: S,
         row: Row<S>,
-        [x, y]: [f32x16<S>; 2],
+        distances: [f32x16<S>; 2],
     ) -> f32x16<S> {
-        let lane = row.pixels.lane();
-        let iw = &self.packet.iw;
-        let by_x = x * s.permute_f32(f32x16::load_array_ref(s, &iw.dx), lane);
-        let by_y = y * s.permute_f32(f32x16::load_array_ref(s, &iw.dy), lane);
+        let (iw, lane) = (&self.packet.iw, row.pixels.lane());
         let origin = s.permute_f32(f32x16::load_array_ref(s, &iw.origin), lane);
-        let value = origin + (by_x + by_y);
         let is_equal = s.mask_from_bits(bits_of_row(s, self.packet.equal_w, row));
-        is_equal.select(origin, value)
-    }
-
-    /// Depth at places of sixteen pixels, given by their distances from the planes' origins; not
-    /// yet clamped.
-    #[inline(always)]
-    pub(super) fn depth<S: Lanes>(
-        &self,
-        s: S,
-        pixels: Pixels<S>,
-        [x, y]: [f32x16<S>; 2],
-    ) -> f32x16<S> {
-        let lane = pixels.lane();
-        let z = &self.packet.z;
-        let by_x = x * s.permute_f32(f32x16::load_array_ref(s, &z.dx), lane);
-        let by_y = y * s.permute_f32(f32x16::load_array_ref(s, &z.dy), lane);
-        s.permute_f32(f32x16::load_array_ref(s, &z.origin), lane) + (by_x + by_y)
+        is_equal.select(origin, iw.at(s, lane, distances))
     }
 }
 
