@@ -190,8 +190,29 @@ pub trait Real:
     #[must_use]
     fn quad_lane(self, index: u8) -> Self;
 
-    /// Calls `work` in a separate function that is compiled for this kind of number. For long code
-    /// that many shaders share: they call it and do not each contain it.
+    /// Calls `work` in a separate function that is compiled for this kind of number. For code that
+    /// many shaders share, which then do not each contain it, and for the parts of a long shader: the
+    /// compiler's time grows faster than the length of a function. A call takes a few nanoseconds
+    /// for a packet. A closure must be inlined into that function:
+    ///
+    /// ```
+    /// use estampe_types::{Real, Vec3};
+    ///
+    /// #[inline(always)]
+    /// fn shaded<R: Real>(normal: Vec3<R>, lights: &[[f32; 3]]) -> R {
+    ///     let mut sum = normal.x.splat(0.0);
+    ///     for light in lights {
+    ///         sum += normal.x.out_of_line(
+    ///             #[inline(always)]
+    ///             || normal.dot_uniform(*light).saturate(),
+    ///         );
+    ///     }
+    ///     sum
+    /// }
+    /// let up = Vec3::new(0.0, 1.0, 0.0);
+    /// assert_eq!(shaded(up, &[[0.0, 0.5, 0.0], [0.0, -1.0, 0.0]]), 0.5);
+    /// ```
+    #[inline(never)]
     fn out_of_line<T>(self, work: impl FnOnce() -> T) -> T {
         work()
     }

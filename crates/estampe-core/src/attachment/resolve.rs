@@ -144,7 +144,9 @@ pub(super) fn mean_words(
         first[..words].copy_from_slice(&texels[..words]);
         return first;
     }
-    dispatch!(Level::best(), s => with_codec!(codec, codec => mean_of(s, codec, texels, count)))
+    dispatch!(Level::best(), s => with_codec!(codec, codec => {
+        outline!(s, mean_of(s, codec, texels, count))
+    }))
 }
 
 #[inline(always)]

@@ -71,7 +71,10 @@ impl Interpolation for AtFragments {
         let maps = &self.reflectance.lights.shadow_maps;
         let visibilities = Visibilities::at(maps, input, view, normal);
         if let Some((map, uv)) = bump {
-            normal = map.perturb(normal, view, uv, input.front_facing);
+            normal = input.zero.out_of_line(
+                #[inline(always)]
+                || map.perturb(normal, view, uv, input.front_facing),
+            );
         }
         let point = SurfacePoint {
             position: view,
@@ -135,11 +138,13 @@ impl Interpolation for AtVertices {
             // Shadows have edges between vertices.
             visibilities: Visibilities::all(position.x.splat(1.0)),
         };
-        let front = self.reflectance.light(point);
-        let back = self.reflectance.light(SurfacePoint {
-            normal: -normal,
-            ..point
-        });
+        let light = |normal: Vec3<R>| {
+            normal.x.out_of_line(
+                #[inline(always)]
+                || self.reflectance.light(SurfacePoint { normal, ..point }),
+            )
+        };
+        let (front, back) = (light(normal), light(-normal));
         (front.diffuse, front.added, back.diffuse, back.added)
     }
 

@@ -118,7 +118,10 @@ impl Fog {
     pub fn color<R: Real>(&self, input: &FragmentIn<'_, R>, color: Vec3<R>) -> Vec3<R> {
         let share = self.share(input);
         let fog = match &self.backdrop {
-            Some(backdrop) => backdrop.color(input).xyz(),
+            Some(backdrop) => share.out_of_line(
+                #[inline(always)]
+                || backdrop.color(input).xyz(),
+            ),
             None => Vec3::uniform(share, self.color),
         };
         color.mix(fog, share)

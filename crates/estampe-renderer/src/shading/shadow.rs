@@ -58,7 +58,10 @@ impl<R: Real> Visibilities<R> {
     ) -> Self {
         let mut all = Self::all(input.real(1.0));
         for (map, visibility) in maps.iter().zip(&mut all.0) {
-            *visibility = map.visibility(input, position, normal);
+            *visibility = position.x.out_of_line(
+                #[inline(always)]
+                || map.visibility(input, position, normal),
+            );
         }
         all
     }

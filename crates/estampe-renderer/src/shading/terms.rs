@@ -33,7 +33,10 @@ impl Reflectance {
         match self.terms {
             Terms::All => self.lights.illuminate(&self.gloss, point),
             Terms::Toon(_) => Illumination {
-                diffuse: Vec3::repeat(self.lights.lit_fraction(point)),
+                diffuse: Vec3::repeat(point.normal.x.out_of_line(
+                    #[inline(always)]
+                    || self.lights.lit_fraction(point),
+                )),
                 added: emissive,
             },
             Terms::Unlit => Illumination {

@@ -55,7 +55,10 @@ estampe::shader! {
             let line = Vec4::uniform(one, [self.line[0], self.line[1], self.line[2], 1.0]);
             let mut face = Vec4::uniform(one, self.face);
             if let Some(backdrop) = &self.backdrop {
-                let over = backdrop.color(&input);
+                let over = one.out_of_line(
+                    #[inline(always)]
+                    || backdrop.color(&input),
+                );
                 face = over + face * (one - over.w);
             }
             FragmentOut::color(face.mix(line, alpha))

@@ -7,7 +7,9 @@ use crate::{
     Bindings, FragmentBatch, FragmentIn, Interface, Pair, Program, Real, Shader, ShaderError, Vec4,
     VertexBatch, VertexIn, derivatives,
 };
-use estampe_simd::{Bytes, Lanes, Level, Packet, SimdBase, dispatch, f32x16, i32x16, u32x16};
+use estampe_simd::{
+    Bytes, LANES, Lanes, Level, Packet, SimdBase, dispatch, f32x16, i32x16, u32x16,
+};
 
 /// A [`Shader`] whose type a pipeline need not know.
 pub struct ShaderProgram<T> {
@@ -154,34 +156,10 @@ impl<T: Shader> ShaderProgram<T> {
             // A last packet without a partner is paired with itself.
             let second = (packet + R::COUNT - 1).min(count - 1);
             let packets = [packet, second];
-            let zero = R::zero(simd);
+            let input = input_of::<S, R>(simd, (interface, bindings), &batch, packets);
+            let zero = input.zero;
             let black = Vec4::new(zero, zero, zero, zero);
-            let position = if interface.reads_position {
-                let left = packets.map(|packet| &batch.positions[packet * 4..][..4]);
-                <Vec4<R> as Varyings<R>>::load(&mut PacketSource::new(simd, left))
-            } else {
-                black
-            };
-            let sample_index = if interface.per_sample {
-                R::ints_of(simd, packets.map(|p| [batch.sample_index[p]; 16]))
-            } else {
-                zero.splat_int(0)
-            };
-            let samples_covered = if interface.reads_coverage {
-                R::ints_of(simd, packets.map(|p| batch.samples_covered[p].0))
-            } else {
-                zero.splat_int(0)
-            };
-            let input = FragmentIn {
-                position,
-                front_facing: R::mask_of(simd, packets.map(|packet| batch.front_facing[packet])),
-                is_helper: R::mask_of(simd, packets.map(|packet| !batch.coverage[packet])),
-                sample_index,
-                coverage: samples_covered,
-                bindings,
-                zero,
-            };
-            let of_packets = packets.map(|packet| &batch.varyings[packet * scalars..][..scalars]);
+            let of_packets = rows(batch.varyings, packets, scalars);
             derivatives::were_taken();
             let mut source = PacketSource::of_fragments(simd, of_packets, varyings);
             let loaded = T::Varyings::load(&mut source);
@@ -189,11 +167,17 @@ impl<T: Shader> ShaderProgram<T> {
             assert_derivatives::<T>(interface);
             assert_fragment::<T, _>(interface, &out);
             for index in 0..targets {
-                let at = packets.map(|packet| (packet * outputs + index) * 4);
+                let at = [
+                    (packet * outputs + index) * 4,
+                    (second * outputs + index) * 4,
+                ];
                 store_vec4(out.colors[index].unwrap_or(black), at, batch.colors);
             }
             if interface.dual_source {
-                let at = packets.map(|packet| (packet * outputs + targets) * 4);
+                let at = [
+                    (packet * outputs + targets) * 4,
+                    (second * outputs + targets) * 4,
+                ];
                 store_vec4(out.second.unwrap_or(black), at, batch.colors);
             }
             if interface.writes_sample_mask {
@@ -231,6 +215,58 @@ impl<T: Shader> ShaderProgram<T> {
             }
         }
     }
+}
+
+/// The inputs of fragments beside their varyings. Without closures, and apart from the shader's
+/// type: arrays' `map` is five functions for each closure of each shader, which were a third of
+/// what the compiler had to do for short ones.
+#[inline(always)]
+fn input_of<'b, S: Lanes, R: Packets<S>>(
+    simd: S,
+    (interface, bindings): (&Interface, &'b Bindings),
+    batch: &FragmentBatch<'_>,
+    packets: [usize; 2],
+) -> FragmentIn<'b, R> {
+    let [first, second] = packets;
+    let zero = R::zero(simd);
+    let position = if interface.reads_position {
+        let left = rows(batch.positions, packets, 4);
+        <Vec4<R> as Varyings<R>>::load(&mut PacketSource::new(simd, left))
+    } else {
+        Vec4::new(zero, zero, zero, zero)
+    };
+    let sample_index = if interface.per_sample {
+        let of_samples = [batch.sample_index[first], batch.sample_index[second]];
+        R::ints_of(simd, [[of_samples[0]; LANES], [of_samples[1]; LANES]])
+    } else {
+        zero.splat_int(0)
+    };
+    let coverage = if interface.reads_coverage {
+        let (a, b) = (
+            &batch.samples_covered[first],
+            &batch.samples_covered[second],
+        );
+        R::ints_of(simd, [a.0, b.0])
+    } else {
+        zero.splat_int(0)
+    };
+    let front = [batch.front_facing[first], batch.front_facing[second]];
+    let helpers = [!batch.coverage[first], !batch.coverage[second]];
+    FragmentIn {
+        position,
+        front_facing: R::mask_of(simd, front),
+        is_helper: R::mask_of(simd, helpers),
+        sample_index,
+        coverage,
+        bindings,
+        zero,
+    }
+}
+
+/// The packets of `each` scalars of two packets of fragments.
+#[inline(always)]
+fn rows(all: &[Packet<f32>], [first, second]: [usize; 2], each: usize) -> [&[Packet<f32>]; 2] {
+    [&all[first * each..][..each], &all[second * each..][..each]]
 }
 
 #[inline(always)]

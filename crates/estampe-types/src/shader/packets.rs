@@ -132,16 +132,16 @@ impl<'a, S> PacketSource<'a, S> {
     /// The scalars of fragments, of which each packet has `varyings`, then derivatives.
     #[inline(always)]
     pub(super) fn of_fragments(simd: S, packets: [&'a [Packet<f32>]; 2], varyings: usize) -> Self {
-        let split = packets.map(|packet| packet.split_at(varyings));
-        let each = (packets[0].len() - varyings) / 2;
-        let derivatives = split.map(|(_, derivatives)| derivatives.split_at(each));
+        let [first, second] = packets;
+        let each = (first.len() - varyings) / 2;
+        let (first, derivatives) = first.split_at(varyings);
+        let (first_x, first_y) = derivatives.split_at(each);
+        let (second, derivatives) = second.split_at(varyings);
+        let (second_x, second_y) = derivatives.split_at(each);
         Self {
             simd,
-            left: split.map(|(varyings, _)| varyings),
-            derivatives: [
-                derivatives.map(|(along_x, _)| along_x),
-                derivatives.map(|(_, along_y)| along_y),
-            ],
+            left: [first, second],
+            derivatives: [[first_x, second_x], [first_y, second_y]],
         }
     }
 }

@@ -82,20 +82,16 @@ pub(super) fn fragments<T: Shader>(
         for lane in (0..16).step_by(QUAD) {
             let position = if interface.reads_position {
                 let p = &batch.positions[packet * 4..][..4];
-                let [x, y, z, w] = [0, 1, 2, 3].map(|k| load(&p[k], lane));
-                Vec4::new(x, y, z, w)
+                let (x, y) = (load(&p[0], lane), load(&p[1], lane));
+                Vec4::new(x, y, load(&p[2], lane), load(&p[3], lane))
             } else {
                 black
             };
-            let front = batch.front_facing[packet] >> lane;
             let sample_index = batch.sample_index.get(packet).copied().unwrap_or_default();
-            let front_facing = Quad([0, 1, 2, 3].map(|k| front >> k & 1 == 1));
             let input = FragmentIn {
                 position,
-                front_facing,
-                is_helper: Quad(
-                    [0, 1, 2, 3].map(|k| batch.coverage[packet] >> (lane + k) & 1 == 0),
-                ),
+                front_facing: mask(batch.front_facing[packet] >> lane),
+                is_helper: mask(!batch.coverage[packet] >> lane),
                 sample_index: Quad([sample_index.cast_signed(); QUAD]),
                 coverage: batch
                     .samples_covered
@@ -122,8 +118,10 @@ pub(super) fn fragments<T: Shader>(
             }
             if interface.writes_sample_mask {
                 let Quad(kept) = out.sample_mask.unwrap_or(Quad([-1; QUAD]));
-                batch.sample_masks[packet].0[lane..lane + QUAD]
-                    .copy_from_slice(&kept.map(i32::cast_unsigned));
+                let to = &mut batch.sample_masks[packet].0[lane..lane + QUAD];
+                for (to, kept) in to.iter_mut().zip(kept) {
+                    *to = kept.cast_unsigned();
+                }
             }
             if let Some(Quad(keep)) = out.keep
                 && interface.discards
@@ -153,7 +151,17 @@ fn load(packet: &Packet<f32>, lane: usize) -> Quad {
 }
 
 fn ints(packet: &Packet<u32>, lane: usize) -> Quad<i32> {
-    Quad([0, 1, 2, 3].map(|k| packet.0[lane + k].cast_signed()))
+    Quad([
+        packet.0[lane].cast_signed(),
+        packet.0[lane + 1].cast_signed(),
+        packet.0[lane + 2].cast_signed(),
+        packet.0[lane + 3].cast_signed(),
+    ])
+}
+
+/// The mask of the lowest four bits.
+fn mask(bits: u16) -> Quad<bool> {
+    Quad([bits & 1 != 0, bits & 2 != 0, bits & 4 != 0, bits & 8 != 0])
 }
 
 fn store(value: Quad, packet: &mut Packet<f32>, lane: usize) {

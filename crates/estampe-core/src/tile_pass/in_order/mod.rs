@@ -85,19 +85,10 @@ impl<const N: usize> Default for InOrderScratch<N> {
     }
 }
 
-/// Draws the tile's primitives of one run of a chunk.
+/// Draws the tile's primitives of one run of a chunk. The SIMD level is entered for each batch of
+/// triangles, each line and each point, and again for what is queued of a primitive: all of it in
+/// one function took the compiler half of the crate's time.
 pub(super) fn draw<const N: usize>(
-    work: &TileWork<'_>,
-    entries: &[BinEntry],
-    job: &mut TileJob<'_>,
-    scratch: &mut TileScratch<N>,
-) {
-    dispatch_samples!(N, work.level, s => draw_entries(s, work, entries, job, scratch));
-}
-
-#[inline(always)]
-fn draw_entries<S: Lanes, const N: usize>(
-    s: S,
     work: &TileWork<'_>,
     entries: &[BinEntry],
     job: &mut TileJob<'_>,
@@ -120,6 +111,7 @@ fn draw_entries<S: Lanes, const N: usize>(
     let scalars = pipeline.interface().varyings.len();
     let mut planes = std::mem::take(&mut scratch.in_order.planes);
     planes.resize(VaryingPlanes::size(scalars), 0.0);
+    let is_scalar = work.level.is_scalar();
     let mut drawing = InOrder {
         work,
         samples,
@@ -132,7 +124,7 @@ fn draw_entries<S: Lanes, const N: usize>(
         // A run is of one kind of primitive, and notes of the queue serve triangles alone.
         gathers: gathers(plan) && matches!(entries.first(), Some(BinEntry::Triangles { .. })),
         stores_in_order: pipeline.key().stores_in_order,
-        listing: if const { S::IS_SCALAR || N > 4 } {
+        listing: if is_scalar || const { N > 4 } {
             Listing::None
         } else {
             Listing::of(plan)
@@ -145,20 +137,21 @@ fn draw_entries<S: Lanes, const N: usize>(
     };
     let mut batch = Batch::default();
     for (at, entry) in entries.iter().enumerate() {
-        if const { !S::IS_SCALAR } && at % ahead::ENTRIES == 0 {
+        if !is_scalar && at % ahead::ENTRIES == 0 {
             ahead::touch(work.chunk, &drawing.source, &entries[at..]);
         }
         match *entry {
             BinEntry::Triangles { packet, lanes } => {
                 for lane in Lane::all_of(lanes) {
-                    if const { S::IS_SCALAR } {
+                    if is_scalar {
                         let packet = &work.chunk.triangles[packet as usize];
-                        drawing.triangle(s, &packet.triangle(lane.get()));
+                        let triangle = packet.triangle(lane.get());
+                        drawing.batch(&mut Batch::of(&triangle));
                         continue;
                     }
                     let triangle = &work.chunk.taken_apart(packet)[lane.get()];
                     if !batch.has_room(triangle) {
-                        drawing.batch(s, &mut batch);
+                        drawing.batch(&mut batch);
                     }
                     batch.add(triangle);
                 }
@@ -167,7 +160,7 @@ fn draw_entries<S: Lanes, const N: usize>(
             BinEntry::Point(number) => drawing.point(&work.chunk.points[number as usize]),
         }
     }
-    drawing.batch(s, &mut batch);
+    drawing.batch(&mut batch);
     drawing.end_solid();
     drawing.flush();
     let (passed, planes) = (drawing.passed, std::mem::take(&mut drawing.planes));
@@ -215,6 +208,7 @@ struct InOrder<'a, 'j, 't, const N: usize> {
 }
 
 impl<'a, const N: usize> InOrder<'a, '_, '_, N> {
+    /// Draws a triangle alone.
     #[inline(always)]
     fn triangle<S: Lanes>(&mut self, s: S, triangle: &Triangle) {
         let (plan, front) = (self.work.plan, triangle.front);
@@ -256,8 +250,7 @@ impl<'a, const N: usize> InOrder<'a, '_, '_, N> {
         if const { N == 1 } && coverage.whole != 0 {
             self.blend_blocks(&interpolant, coverage);
         }
-        let as_pixels = self.needs_no_quads && const { N <= 4 };
-        self.queue_list(s, &interpolant, (front, as_pixels));
+        self.queue_triangle(&interpolant, front);
         self.planes = planes;
     }
 

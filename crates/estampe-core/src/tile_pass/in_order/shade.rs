@@ -8,11 +8,13 @@
 //! it, closes that packet.
 
 use super::InOrder;
-use crate::fragment::interpolate::{Interpolant, PixelInterpolant};
+use crate::fragment::interpolate::{
+    Interpolant, LineOrPoint, PixelInterpolant, TriangleInterpolant,
+};
 use crate::fragment::quad::QUADS;
 use crate::fragment::queue::{PrimitivePacket, QuadPlace};
 use crate::raster::{Covered, packet_origin};
-use estampe_simd::Lanes;
+use estampe_simd::{Lanes, dispatch};
 
 /// The quads of a tile, one bit each, that were queued since the packet that is being filled was
 /// begun.
@@ -42,37 +44,61 @@ impl PendingQuads {
 impl<const N: usize> InOrder<'_, '_, '_, N> {
     /// A line's or point's list: test, then queue.
     #[inline(always)]
-    pub(super) fn covered<S: Lanes>(
-        &mut self,
-        s: S,
-        interpolant: &impl PixelInterpolant<S>,
-        front: bool,
-    ) {
+    pub(super) fn covered<S: Lanes>(&mut self, s: S, interpolant: &LineOrPoint<'_>, front: bool) {
         if !self.test_early(s, interpolant, front) {
             return;
         }
         self.end_solid();
         // Pixels would be slower than quads (`wire` 93 ms → 102): a line has few.
-        self.queue_list(s, interpolant, (front, false));
+        if const { S::IS_SCALAR } || !self.shares_packets {
+            self.queue_line_packets(interpolant, front);
+        } else {
+            self.queue_line_quads(interpolant, front);
+        }
     }
 
-    /// Queues the list as packets, pixels or quads.
+    #[inline(never)]
+    fn queue_line_packets(&mut self, interpolant: &LineOrPoint<'_>, front: bool) {
+        dispatch_samples!(N, self.work.level, s => self.queue_packets(s, interpolant, front));
+    }
+
+    #[inline(never)]
+    fn queue_line_quads(&mut self, interpolant: &LineOrPoint<'_>, front: bool) {
+        dispatch!(@wide self.work.level, s => self.queue_quads(s, interpolant, front),
+            scalar => unreachable!("the scalar level queues packets"));
+    }
+
+    /// Queues a triangle's list as packets, pixels or quads, each of which is a function of its
+    /// own. The scalar level has no code for packets that primitives share: it takes the compiler
+    /// too long.
     #[inline(always)]
-    pub(super) fn queue_list<S: Lanes>(
-        &mut self,
-        s: S,
-        interpolant: &impl PixelInterpolant<S>,
-        (front, as_pixels): (bool, bool),
-    ) {
-        // The scalar level has no code for packets that primitives share: it takes the compiler too
-        // long.
-        if const { S::IS_SCALAR } || !self.shares_packets {
-            self.queue_packets(s, interpolant, front);
-        } else if as_pixels {
-            self.queue_dense(s, interpolant, front);
+    pub(super) fn queue_triangle(&mut self, interpolant: &TriangleInterpolant<'_>, front: bool) {
+        if self.work.level.is_scalar() || !self.shares_packets {
+            self.queue_triangle_packets(interpolant, front);
+        } else if self.needs_no_quads && const { N <= 4 } {
+            self.queue_triangle_pixels(interpolant, front);
         } else {
-            self.queue_quads(s, interpolant, front);
+            self.queue_triangle_quads(interpolant, front);
         }
+    }
+
+    #[inline(never)]
+    fn queue_triangle_packets(&mut self, interpolant: &TriangleInterpolant<'_>, front: bool) {
+        dispatch_samples!(N, self.work.level, s => self.queue_packets(s, interpolant, front));
+    }
+
+    #[inline(never)]
+    fn queue_triangle_pixels(&mut self, interpolant: &TriangleInterpolant<'_>, front: bool) {
+        if const { N <= 4 } {
+            dispatch!(@wide self.work.level, s => self.queue_dense(s, interpolant, front),
+                scalar => unreachable!("the scalar level queues packets"));
+        }
+    }
+
+    #[inline(never)]
+    fn queue_triangle_quads(&mut self, interpolant: &TriangleInterpolant<'_>, front: bool) {
+        dispatch!(@wide self.work.level, s => self.queue_quads(s, interpolant, front),
+            scalar => unreachable!("the scalar level queues packets"));
     }
 
     /// Queues the list as whole packets, shading whenever the queue is full.

@@ -48,6 +48,13 @@ pub(super) struct Batch<'a> {
 }
 
 impl<'a> Batch<'a> {
+    /// A triangle alone.
+    pub(super) fn of(triangle: &'a Triangle) -> Self {
+        let mut batch = Self::default();
+        batch.add(triangle);
+        batch
+    }
+
     /// The lanes that a triangle takes.
     #[inline(always)]
     fn lanes_of(triangle: &Triangle) -> usize {
@@ -156,8 +163,14 @@ impl Listing {
 
 impl<const N: usize> InOrder<'_, '_, '_, N> {
     /// Draws a batch, and empties it.
+    #[inline(never)]
+    pub(super) fn batch(&mut self, batch: &mut Batch<'_>) {
+        dispatch_samples!(N, self.work.level, s => self.batch_lanes(s, batch));
+        (batch.len, batch.small) = (0, 0);
+    }
+
     #[inline(always)]
-    pub(super) fn batch<S: Lanes>(&mut self, s: S, batch: &mut Batch<'_>) {
+    fn batch_lanes<S: Lanes>(&mut self, s: S, batch: &Batch<'_>) {
         let mut small = 0;
         if self.listing != Listing::None && batch.small >= LEAST {
             small = self.cover_batch(batch);
@@ -178,7 +191,6 @@ impl<const N: usize> InOrder<'_, '_, '_, N> {
                 next = lane + 1;
             }
         }
-        (batch.len, batch.small) = (0, 0);
     }
 
     /// Covers the triangles of a batch. Returns those that may be listed.

@@ -100,6 +100,12 @@ impl<R: Real> Film<R> {
         let (x, y, z) = (base(base_f0.x), base(base_f0.y), base(base_f0.z));
         let path = self.thickness_nm * inside * (2.0 * ior);
         let shift = Vec3::new(x.shift, y.shift, z.shift);
+        let sensitivity = |path: R, shift| {
+            path.out_of_line(
+                #[inline(always)]
+                || sensitivity(path, shift),
+            )
+        };
         let once = sensitivity(path, shift) * 2.0;
         let twice = sensitivity(path * 2.0, shift * 2.0) * 2.0;
         Vec3::new(

@@ -103,10 +103,20 @@ impl<R: Real> PbrPoint<R> {
     /// The light that leaves towards the eye.
     #[inline(always)]
     pub fn leaving(&self, environment: &EnvironmentLight, lights: &[PbrLight]) -> Leaving<R> {
-        let shared = self.shared(environment);
-        let mut sum = self.environment_light(environment, &shared);
+        // Functions of their own: in one, the compiler took minutes for the shader.
+        let shared = self.roughness.out_of_line(
+            #[inline(always)]
+            || self.shared(environment),
+        );
+        let mut sum = self.roughness.out_of_line(
+            #[inline(always)]
+            || self.environment_light(environment, &shared),
+        );
         for light in lights {
-            sum += self.punctual_light(light, &shared);
+            sum += self.roughness.out_of_line(
+                #[inline(always)]
+                || self.punctual_light(light, &shared),
+            );
         }
         let mut passing = None;
         if let Some(color) = self.passing {
@@ -268,9 +278,15 @@ impl<R: Real> PbrPoint<R> {
         let spread = (shared.multiple + shared.diffuse) * FRAC_1_PI;
         let mut reflectance = (spread + fresnel * lobe) * shared.below;
         if let Some((fibres, _)) = shared.sheen {
-            let density = brdf::density_sheen(n_dot_h, brdf::sheen_alpha(fibres.roughness));
-            let visibility = brdf::visibility_sheen(lit, shared.n_dot_v);
-            reflectance += fibres.color * (density * visibility);
+            let lobe = lit.out_of_line(
+                #[inline(always)]
+                || {
+                    let alpha = brdf::sheen_alpha(fibres.roughness);
+                    brdf::density_sheen(n_dot_h, alpha)
+                        * brdf::visibility_sheen(lit, shared.n_dot_v)
+                },
+            );
+            reflectance += fibres.color * lobe;
         }
         let mut sum = illuminance * reflectance * lit;
         if let Some((coat, _)) = shared.coat {

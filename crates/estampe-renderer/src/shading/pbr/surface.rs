@@ -112,7 +112,10 @@ impl PbrSurface {
                 Some(map) => map.texture.coordinates.of(uvs),
                 None => uvs.0,
             };
-            let made = frame_of_derivatives(view, unit * sign, uv);
+            let made = one.out_of_line(
+                #[inline(always)]
+                || frame_of_derivatives(view, unit * sign, uv),
+            );
             frame.tangent = Vec3::select(has_tangent, frame.tangent, made[0]);
             frame.bitangent = Vec3::select(has_tangent, frame.bitangent, made[1]);
             frame.normal = Vec3::select(has_tangent, frame.normal, unit * sign);
@@ -135,7 +138,10 @@ impl PbrSurface {
         let to_eye = self.transforms.eye_direction(view);
         let frame = self.frame(input, v, to_eye);
         let normal = match &parameters.normal {
-            Some(map) => frame.normal_of(map, uvs),
+            Some(map) => one.out_of_line(
+                #[inline(always)]
+                || frame.normal_of(map, uvs),
+            ),
             None => frame.unit,
         };
         let mut metallic = one * parameters.metallic;
@@ -176,11 +182,24 @@ impl PbrSurface {
         }
         let mut sheen = None;
         if let Some(parameters) = &parameters.sheen {
-            sheen = Some(fibres(parameters, uvs, one));
+            sheen = Some(one.out_of_line(
+                #[inline(always)]
+                || fibres(parameters, uvs, one),
+            ));
+        }
+        let mut coat = None;
+        if let Some(parameters) = &parameters.clearcoat {
+            coat = Some(one.out_of_line(
+                #[inline(always)]
+                || clearcoat(parameters, uvs, &frame, one),
+            ));
         }
         let mut film = None;
         if let Some(parameters) = &parameters.iridescence {
-            film = Some(thin_film(parameters, uvs, one));
+            film = Some(one.out_of_line(
+                #[inline(always)]
+                || thin_film(parameters, uvs, one),
+            ));
         }
         let point = PbrPoint {
             position: view,
@@ -193,15 +212,15 @@ impl PbrSurface {
             f90: f90.mix(one, metallic),
             roughness: filtered(roughness, normal),
             occlusion,
-            clearcoat: match &parameters.clearcoat {
-                Some(coat) => Some(clearcoat(coat, uvs, &frame, one)),
-                None => None,
-            },
+            clearcoat: coat,
             sheen,
             grooves: match &parameters.anisotropy {
                 Some(parameters) => {
                     let across = [frame.tangent, frame.bitangent];
-                    Some(Grooves::new(parameters, uvs, across, normal))
+                    Some(one.out_of_line(
+                        #[inline(always)]
+                        || Grooves::new(parameters, uvs, across, normal),
+                    ))
                 }
                 None => None,
             },
@@ -221,7 +240,11 @@ impl PbrSurface {
         let transmission = self.parameters.transmission.as_ref()?;
         let view = self.lighting.behind.as_ref()?;
         let picture = input.bindings.sampled_texture(BEHIND_GROUP, 0);
-        Some(transmission.behind((view, picture), point, uvs))
+        let passed = point.roughness.out_of_line(
+            #[inline(always)]
+            || transmission.behind((view, picture), point, uvs),
+        );
+        Some(passed)
     }
 
     /// The colour of a fragment, as it is shown.
@@ -247,7 +270,10 @@ impl PbrSurface {
             tone_map,
             ..
         } = &*self.lighting;
-        let (point, behind) = self.point(input, v, base);
+        let (point, behind) = input.zero.out_of_line(
+            #[inline(always)]
+            || self.point(input, v, base),
+        );
         let leaving = point.leaving(environment, lights);
         let mut emitted = Vec3::uniform(input.zero, parameters.emissive);
         if let Some(texture) = &parameters.emissive_texture {
@@ -266,7 +292,10 @@ impl PbrSurface {
         let covered = tone_map.apply(sum + passing * behind.covered_light());
         let shown = tone_map.apply(sum).mix(covered, behind.coverage);
         let clear = passing * (Vec3::repeat(input.real(1.0)) - behind.coverage);
-        view.over_background(input, shown, clear)
+        input.zero.out_of_line(
+            #[inline(always)]
+            || view.over_background(input, shown, clear),
+        )
     }
 }
 

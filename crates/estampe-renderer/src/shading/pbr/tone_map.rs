@@ -25,9 +25,18 @@ impl ToneMap {
     pub fn apply<R: Real>(self, color: Vec3<R>) -> Vec3<R> {
         match self {
             Self::None => color,
-            Self::Neutral => neutral(color),
-            Self::Agx => agx(color),
-            Self::Aces => aces(color),
+            Self::Neutral => color.x.out_of_line(
+                #[inline(always)]
+                || neutral(color),
+            ),
+            Self::Agx => color.x.out_of_line(
+                #[inline(always)]
+                || agx(color),
+            ),
+            Self::Aces => color.x.out_of_line(
+                #[inline(always)]
+                || aces(color),
+            ),
         }
     }
 }

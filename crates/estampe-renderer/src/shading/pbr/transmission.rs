@@ -132,9 +132,13 @@ impl TransmissionParameters {
                 coverage: Vec3::repeat(seen.w),
             };
         }
-        let red = view.along_ray(picture, point, thickness, red);
-        let green = view.along_ray(picture, point, thickness, green);
-        let blue = view.along_ray(picture, point, thickness, blue);
+        let along_ray = |ior| {
+            one.out_of_line(
+                #[inline(always)]
+                || view.along_ray(picture, point, thickness, ior),
+            )
+        };
+        let (red, green, blue) = (along_ray(red), along_ray(green), along_ray(blue));
         Behind {
             share,
             tint,
