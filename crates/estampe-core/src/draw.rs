@@ -119,10 +119,10 @@ impl Context {
     }
 
     /// A context that draws on the calling thread alone and measures what each job takes: see
-    /// [`Context::take_timings`].
+    /// [`Context::take_timings`]. It divides work into jobs as for this many threads.
     #[must_use]
-    pub fn profiling(level: Level) -> Self {
-        Self::on(Executor::profiling(), level)
+    pub fn profiling(threads: usize, level: Level) -> Self {
+        Self::on(Executor::profiling(threads), level)
     }
 
     fn on(executor: Executor, level: Level) -> Self {
@@ -211,7 +211,7 @@ impl Context {
             resolve.is_done = false;
         }
         let executor = self.executor_of(pass.draws);
-        let mut cursor = DrawCursor::new(pass.draws);
+        let mut cursor = DrawCursor::new(pass.draws, self.level);
         let mut batch = DrawBatch::new(
             recycled(std::mem::take(&mut memory.lists.states)),
             recycled(std::mem::take(&mut memory.lists.sub_draws)),

@@ -67,7 +67,7 @@ mod tests {
 
     #[test]
     fn each_item_is_worked_on_once_and_timed() {
-        let executor = Executor::profiling();
+        let executor = Executor::profiling(1);
         let mut items = [3_u64, 1, 2];
         let sleep = |item: &mut u64| {
             std::thread::sleep(Duration::from_millis(*item));

@@ -20,6 +20,8 @@ pub(crate) struct Executor {
     helpers: Option<Arc<ThreadPool>>,
     /// Measures each item, if the context is made for profiling.
     profiler: Option<Profiler>,
+    /// The number of threads for which work is divided, the caller included.
+    threads: usize,
 }
 
 /// The error returned if the thread pool cannot be created.
@@ -51,15 +53,13 @@ impl Executor {
             threads,
             reason: error.to_string(),
         })?;
-        Ok(Self {
-            helpers: Some(Arc::new(pool)),
-            profiler: None,
-        })
+        Ok(Self::on_pool(Arc::new(pool)))
     }
 
     /// An executor of the caller and the threads of a pool.
     pub(crate) fn on_pool(pool: Arc<ThreadPool>) -> Self {
         Self {
+            threads: 1 + pool.current_num_threads(),
             helpers: Some(pool),
             profiler: None,
         }
@@ -70,14 +70,17 @@ impl Executor {
         Self {
             helpers: None,
             profiler: None,
+            threads: 1,
         }
     }
 
-    /// An executor of the calling thread alone that measures what each item takes.
-    pub(crate) fn profiling() -> Self {
+    /// An executor of the calling thread alone that measures what each item takes. Work is divided
+    /// as for this many threads.
+    pub(crate) fn profiling(threads: usize) -> Self {
         Self {
             helpers: None,
             profiler: Some(Profiler::default()),
+            threads: threads.max(1),
         }
     }
 
@@ -87,10 +90,9 @@ impl Executor {
         profiler.map(Profiler::take).unwrap_or_default()
     }
 
-    /// Returns the number of items that run at once.
+    /// Returns the number of items that run at once, or would if they were not measured.
     pub(crate) fn threads(&self) -> usize {
-        let helpers = self.helpers.as_ref();
-        1 + helpers.map_or(0, |pool| pool.current_num_threads())
+        self.threads
     }
 
     /// Runs `work` for every item, each with one worker's scratch.

@@ -93,12 +93,16 @@ pub struct Limits {
 const FRAMES: usize = 9;
 
 impl FrameCosts {
-    /// Records a scene's frames on one thread.
+    /// Records a scene's frames on one thread, in the jobs of so many cores.
     ///
     /// # Errors
     /// [`BenchError`] if the device refuses the frame's size.
-    pub fn record(level: Level, scene: &Scene, size: FrameSize) -> Result<Self, BenchError> {
-        let device = Device::profiling(level);
+    pub fn record(
+        (cores, level): (usize, Level),
+        scene: &Scene,
+        size: FrameSize,
+    ) -> Result<Self, BenchError> {
+        let device = Device::profiling(cores, level);
         let mut prepared = PreparedScene::new(&device, scene, size)?;
         prepared.draw();
         prepared.draw();
@@ -153,13 +157,6 @@ impl FrameCosts {
         self.serial_ns + shared.sum::<u64>()
     }
 
-    /// The ratio of the frame times on one core and on this many.
-    #[must_use]
-    pub fn speed_up(&self, cores: usize, wake_up: WakeUp) -> f64 {
-        let alone = self.on_cores_ns(1, wake_up) as f64;
-        alone / self.on_cores_ns(cores, wake_up).max(1) as f64
-    }
-
     /// The parts of the frame time on this many cores that are not parallel work.
     #[must_use]
     pub fn limits(&self, cores: usize, wake_up: WakeUp) -> Limits {
@@ -188,6 +185,44 @@ impl FrameCosts {
         let largest = jobs.iter().max().copied().unwrap_or_default();
         let all = jobs.iter().sum::<u64>().max(1);
         (jobs.len(), largest as f64 / all as f64)
+    }
+}
+
+/// The costs of a frame in the jobs of one core, and in those of more.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct CostsByCores {
+    /// In the jobs of one core.
+    pub alone: FrameCosts,
+    /// Numbers of cores, with the costs in their jobs. Groups of geometry grow with the cores.
+    pub of_cores: Vec<(usize, FrameCosts)>,
+}
+
+impl CostsByCores {
+    /// Records a scene's frames for one core and for these numbers of cores.
+    ///
+    /// # Errors
+    /// As [`FrameCosts::record`].
+    pub fn record(
+        level: Level,
+        scene: &Scene,
+        size: FrameSize,
+        cores: &[usize],
+    ) -> Result<Self, BenchError> {
+        let of = |&cores: &usize| {
+            let costs = FrameCosts::record((cores, level), scene, size)?;
+            Ok((cores, costs))
+        };
+        Ok(Self {
+            alone: FrameCosts::record((1, level), scene, size)?,
+            of_cores: cores.iter().map(of).collect::<Result<_, BenchError>>()?,
+        })
+    }
+
+    /// The ratio of the frame times on one core and on one of the recorded numbers of cores.
+    #[must_use]
+    pub fn speed_up(&self, (cores, costs): &(usize, FrameCosts), wake_up: WakeUp) -> f64 {
+        let alone = self.alone.on_cores_ns(1, wake_up) as f64;
+        alone / costs.on_cores_ns(*cores, wake_up).max(1) as f64
     }
 }
 
@@ -263,7 +298,12 @@ mod tests {
     #[test]
     fn amdahls_law_holds() {
         let frame = costs(100, &[(JobKind::Tiles, vec![1; 900])]);
-        assert!((frame.speed_up(9, FREE) - 5.0).abs() < 1e-9);
+        let of_nine = (9, frame.clone());
+        let by_cores = CostsByCores {
+            alone: frame.clone(),
+            of_cores: vec![of_nine.clone()],
+        };
+        assert!((by_cores.speed_up(&of_nine, FREE) - 5.0).abs() < 1e-9);
         let limits = frame.limits(9, FREE);
         assert!((limits.serial - 0.5).abs() < 1e-9);
         assert!(limits.waiting.iter().all(|(_, share)| share.abs() < 1e-9));
@@ -287,7 +327,7 @@ mod tests {
         };
         let scene = SceneEntry::named("small_tris").unwrap();
         let scene = scene.make(Detail::Reduced, size);
-        let frame = FrameCosts::record(Level::default(), &scene, size).unwrap();
+        let frame = FrameCosts::record((64, Level::default()), &scene, size).unwrap();
         let kinds: Vec<_> = frame.phases.iter().map(|phase| phase.kind).collect();
         assert_eq!(kinds, [JobKind::Vertices, JobKind::Chunks, JobKind::Tiles]);
         assert_eq!(frame.largest(JobKind::Tiles).0, 4 * 2);

@@ -25,7 +25,7 @@ use crate::scene::{ALL, Detail, Scene};
 use crate::stages::SIZE;
 use estampe::{Device, DeviceDescriptor, Level};
 use indicatif::{ProgressBar, ProgressStyle};
-use jobs::FrameCosts;
+use jobs::CostsByCores;
 use memory::Memory;
 use plot::{Curve, Plot};
 use section::{Results, section};
@@ -54,11 +54,11 @@ pub fn run(folder: &Path, level: Level) -> Result<String, BenchError> {
     for entry in ALL {
         progress.step(entry.name);
         let scene = entry.make(Detail::Full, SIZE);
-        let frame = FrameCosts::record(level, &scene, SIZE)?;
+        let by_cores = CostsByCores::record(level, &scene, SIZE, &section::CORES)?;
         let costs = costs_of(&devices, &scene, SIZE, 1.0)?;
         let ends = costs.first().zip(costs.last());
         let measured = ends.map_or(1.0, |(one, all)| one.wall_ms / all.wall_ms);
-        scenes.push((entry.name, frame, measured));
+        scenes.push((entry.name, by_cores, measured));
     }
     let results = Results {
         driver: format!("{}, SIMD level {}", processor(), level.name()),

@@ -1,7 +1,7 @@
 //! The results of the growth measurements as Markdown.
 
 use super::fans::SIDES;
-use super::jobs::{FrameCosts, JobKind};
+use super::jobs::{CostsByCores, FrameCosts, JobKind};
 use super::memory::Memory;
 use super::meshes::{CLASSES, COUNTS};
 use super::series::{Cost, Series};
@@ -21,7 +21,7 @@ pub struct Results {
     /// Memory; `None` if the system does not report it.
     pub memory: Option<Memory>,
     /// Each scene's name, costs, and measured speed-up by all threads.
-    pub scenes: Vec<(&'static str, FrameCosts, f64)>,
+    pub scenes: Vec<(&'static str, CostsByCores, f64)>,
     /// The time to wake a thread.
     pub wake_up: WakeUp,
     /// The number of all threads.
@@ -34,7 +34,7 @@ const IN_CACHE: f64 = 1024.0 * 1024.0;
 const BEYOND_CACHE: f64 = 2048.0 * 2048.0;
 
 /// The simulated numbers of cores.
-const CORES: [usize; 4] = [2, 8, 16, 64];
+pub(super) const CORES: [usize; 4] = [2, 8, 16, 64];
 
 /// The section's text.
 #[must_use]
@@ -179,7 +179,8 @@ fn cores(results: &Results, out: &mut String) {
         "\n## With cores\n\n\
          Every job of a frame (runs of vertices, chunks of primitives, tiles) was timed on one core, and the schedule was\n\
          simulated with these times: in each phase helpers are woken as a tree, and each idle thread takes jobs from the\n\
-         front of the remaining ones, in batches of a fourth of its share. The parts between phases are serial. Speed-ups are\n\
+         front of the remaining ones, in batches of a fourth of its share. The jobs are those of the number of cores:\n\
+         geometry goes in groups that grow with it. The parts between phases are serial. Speed-ups are\n\
          for helpers that are awake; in brackets for helpers that sleep before each phase, with this machine's times of\n\
          {:.1} µs to call one and {:.1} µs until it runs. The simulation assumes that memory is as fast for many cores as for one.\n\n\
          | scene | ms on 1 | {} measured |",
@@ -194,14 +195,15 @@ fn cores(results: &Results, out: &mut String) {
         " limits of 64 (shares of their time) |\n|---|---:|---:|---:|---:|---:|---:|---|\n",
     );
     for (name, frame, measured) in &results.scenes {
-        let alone = frame.on_cores_ns(1, wake_up) as f64 * 1e-6;
+        let alone = frame.alone.on_cores_ns(1, wake_up) as f64 * 1e-6;
         let _ = write!(out, "| {name} | {} | {measured:.2} |", significant(alone));
-        for cores in CORES {
-            let awake = frame.speed_up(cores, WakeUp::default());
-            let asleep = frame.speed_up(cores, wake_up);
+        for of_cores in &frame.of_cores {
+            let awake = frame.speed_up(of_cores, WakeUp::default());
+            let asleep = frame.speed_up(of_cores, wake_up);
             let _ = write!(out, " {awake:.1} ({asleep:.1}) |");
         }
-        let _ = writeln!(out, " {} |", obstacles(frame));
+        let most = frame.of_cores.last().map(|(_, costs)| obstacles(costs));
+        let _ = writeln!(out, " {} |", most.unwrap_or_default());
     }
 }
 
@@ -293,12 +295,16 @@ mod tests {
             phases: Vec::new(),
             serial_ns: 1000,
         };
+        let by_cores = CostsByCores {
+            alone: frame.clone(),
+            of_cores: vec![(64, frame)],
+        };
         let text = section(&Results {
             driver: "d".to_owned(),
             triangles: vec![one],
             pixels: Vec::new(),
             memory: None,
-            scenes: vec![("clear", frame, 1.0)],
+            scenes: vec![("clear", by_cores, 1.0)],
             wake_up: WakeUp::default(),
             threads: 2,
         });

@@ -1,6 +1,7 @@
 //! The draw cursor: cuts a pass's draws into batches of sub-draws.
 
 use super::draw_batch::DrawBatch;
+use super::index_extremes::KnownExtremes;
 use super::index_range::{
     MAX_WHOLE_ELEMENTS, element_count, is_splittable, is_stippled_strip, list_vertices, part_of,
     restart_source, vertex_range, visible_elements,
@@ -11,6 +12,7 @@ use crate::commands::Draw;
 use crate::geometry::assembly::primitive_count;
 use crate::geometry::restart::{RestartCursor, RestartSource};
 use crate::schedule::Executor;
+use estampe_simd::Level;
 use std::ops::Range;
 
 /// Vertices or primitives that a batch holds before it is drawn.
@@ -36,6 +38,7 @@ pub(crate) struct DrawCursor<'a> {
     draws: std::slice::Iter<'a, Draw<'a>>,
     /// The draw that is being cut.
     current: Option<OpenDraw<'a>>,
+    known: KnownExtremes,
 }
 
 /// A draw, and which of its primitives and instances are left.
@@ -55,10 +58,11 @@ struct OpenDraw<'a> {
 }
 
 impl<'a> DrawCursor<'a> {
-    pub(crate) fn new(draws: &'a [Draw<'a>]) -> Self {
+    pub(crate) fn new(draws: &'a [Draw<'a>], level: Level) -> Self {
         Self {
             draws: draws.iter(),
             current: None,
+            known: KnownExtremes::new(level),
         }
     }
 
@@ -96,7 +100,7 @@ impl<'a> DrawCursor<'a> {
                 continue;
             };
             batch.invisible_primitives += open.take_invisible();
-            let mut sub_draw = open.take(executor);
+            let mut sub_draw = open.take(executor, &mut self.known);
             sub_draw.state = state;
             if sub_draw.total_primitives() > 0 {
                 vertices += sub_draw.total_vertices();
@@ -149,7 +153,7 @@ impl<'a> OpenDraw<'a> {
 
     /// Takes the next sub-draw off: many instances of a small draw, or part of one instance of a
     /// large one.
-    fn take(&mut self, executor: &Executor) -> SubDraw<'a> {
+    fn take(&mut self, executor: &Executor, known: &mut KnownExtremes) -> SubDraw<'a> {
         let draw = self.draw;
         if let Some(source) = restart_source(draw) {
             return self.take_restarted(&source);
@@ -160,9 +164,9 @@ impl<'a> OpenDraw<'a> {
         if all > SUB_DRAW_PRIMITIVES && is_splittable(draw) {
             let left = self.primitives.end - self.primitives.start;
             let first = self.primitives.start;
-            let part = |count: u32| {
+            let mut part = |count: u32| {
                 let elements = part_of(topology, first, count, whole);
-                self.sub_draw(executor, elements, 1)
+                self.sub_draw((executor, &mut *known), elements, 1)
             };
             let mut count = left.min(SUB_DRAW_PRIMITIVES);
             let mut taken = part(count);
@@ -183,7 +187,7 @@ impl<'a> OpenDraw<'a> {
         }
         let left = self.instances.end - self.instances.start;
         let instances = (SUB_DRAW_PRIMITIVES / all.max(1)).clamp(1, left);
-        let sub_draw = self.sub_draw(executor, [0, whole], instances);
+        let sub_draw = self.sub_draw((executor, known), [0, whole], instances);
         let sub_draw = sub_draw.within_budget(BATCH_BUDGET);
         self.instances.start += sub_draw.instances;
         sub_draw
@@ -236,12 +240,12 @@ impl<'a> OpenDraw<'a> {
     /// instances.
     fn sub_draw(
         &self,
-        executor: &Executor,
+        indices: (&Executor, &mut KnownExtremes),
         [first, count]: [u32; 2],
         instances: u32,
     ) -> SubDraw<'a> {
         let first = self.draw.elements.start.saturating_add(first);
-        let range = vertex_range(executor, self.draw, first, count);
+        let range = vertex_range(indices, self.draw, first, count);
         let topology = self.draw.pipeline.descriptor().primitive.topology;
         let instances = Instances {
             first: self.instances.start,
@@ -302,7 +306,7 @@ mod tests {
         let depth = DepthStencilTexels::zeros(TextureFormat::Depth32Float, size).unwrap();
         let target = RenderTarget::of_images(size, vec![color], Some(depth));
         let executor = Executor::new(1).unwrap();
-        let (mut cursor, mut batch) = (DrawCursor::new(draws), DrawBatch::default());
+        let (mut cursor, mut batch) = (DrawCursor::new(draws, Level::best()), DrawBatch::default());
         let mut batches = 0;
         loop {
             batch.clear();

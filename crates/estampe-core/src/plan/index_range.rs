@@ -1,12 +1,13 @@
 //! The elements of a draw: how many there are, where they may be cut, and the range of vertices
 //! that they name.
 
+use super::index_extremes::KnownExtremes;
 use crate::commands::Draw;
-use crate::geometry::assembly::{raw_index, vertex_index};
+use crate::geometry::assembly::vertex_index;
 use crate::geometry::restart::RestartSource;
 use crate::schedule::Executor;
+use estampe_types::IndexFormat;
 use estampe_types::state::PrimitiveTopology;
-use estampe_types::{BufferData, IndexFormat};
 
 /// Elements of a fan, loop or stippled strip at most: what is beyond is not drawn. Memory for a
 /// draw is bounded by it.
@@ -177,7 +178,7 @@ pub(super) fn part_of(topology: PrimitiveTopology, first: u32, count: u32, whole
 
 /// The vertices that `count` elements from `first` on name.
 pub(super) fn vertex_range(
-    executor: &Executor,
+    (executor, known): (&Executor, &mut KnownExtremes),
     draw: &Draw<'_>,
     first: u32,
     count: u32,
@@ -193,7 +194,7 @@ pub(super) fn vertex_range(
         vertex_index(buffer, format, at, draw.base_vertex)
     };
     let base = draw.base_vertex;
-    let of_buffer = extremes_in_buffer(executor, buffer, format, [first, count]);
+    let of_buffer = known.in_buffer(executor, buffer, format, [first, count]);
     let of_buffer = of_buffer.and_then(|[least, greatest]| {
         // A sum that wraps around changes the order.
         Some([
@@ -210,123 +211,9 @@ pub(super) fn vertex_range(
         .unwrap_or_else(|| IndexRange::listed((0..count).map(index).collect()))
 }
 
-/// Indices that one worker looks through at a time.
-const INDEX_CHUNK: usize = 1 << 16;
-
-/// The least and the greatest of the indices of `count` elements from `first` on, in loops that
-/// become SIMD code; `None` where the buffer does not hold all of them, or they are bytes.
-fn extremes_in_buffer(
-    executor: &Executor,
-    buffer: &BufferData,
-    format: IndexFormat,
-    [first, count]: [u32; 2],
-) -> Option<[u32; 2]> {
-    let (from, to) = (first as usize, first as usize + count as usize);
-    match format {
-        IndexFormat::Uint8 => None,
-        IndexFormat::Uint32 => {
-            let words = buffer.words().get(from..to)?;
-            extremes(executor, words, extremes_of_words)
-        }
-        IndexFormat::Uint16 => {
-            let whole = buffer.words().get(from.div_ceil(2)..to / 2)?;
-            let halves = extremes(executor, whole, extremes_of_halves);
-            let [mut least, mut greatest] = halves.unwrap_or([u32::MAX, 0]);
-            // The first one where it is the upper half of a word, and the last one where it is the
-            // lower.
-            let upper = (!from.is_multiple_of(2)).then_some(from);
-            let lower = (!to.is_multiple_of(2)).then(|| to - 1);
-            for at in [upper, lower].into_iter().flatten() {
-                let index = raw_index(buffer, format, at);
-                (least, greatest) = (least.min(index), greatest.max(index));
-            }
-            Some([least, greatest])
-        }
-    }
-}
-
-fn extremes_of_words(words: &[u32]) -> [u32; 2] {
-    let (mut least, mut greatest) = (u32::MAX, 0);
-    for &word in words {
-        least = least.min(word);
-        greatest = greatest.max(word);
-    }
-    [least, greatest]
-}
-
-fn extremes_of_halves(words: &[u32]) -> [u32; 2] {
-    let (mut least, mut greatest) = (u32::MAX, 0);
-    for &word in words {
-        let (low, high) = (word & 0xFFFF, word >> 16);
-        least = least.min(low).min(high);
-        greatest = greatest.max(low).max(high);
-    }
-    [least, greatest]
-}
-
-/// The least and the greatest number in some words. A million triangles have 12 MB of indices,
-/// which one thread alone reads no faster than memory gives them to it.
-fn extremes(
-    executor: &Executor,
-    words: &[u32],
-    of_part: fn(&[u32]) -> [u32; 2],
-) -> Option<[u32; 2]> {
-    if words.is_empty() {
-        return None;
-    }
-    if words.len() <= INDEX_CHUNK {
-        return Some(of_part(words));
-    }
-    let mut parts: [(&[u32], [u32; 2]); 64] = [(&[], [u32::MAX, 0]); 64];
-    let each = words.len().div_ceil(parts.len());
-    let mut used = 0;
-    for (part, words) in parts.iter_mut().zip(words.chunks(each)) {
-        part.0 = words;
-        used += 1;
-    }
-    executor.for_each_alone(&mut parts[..used], |(words, found)| *found = of_part(words));
-    let wider = |a: [u32; 2], b: [u32; 2]| [a[0].min(b[0]), a[1].max(b[1])];
-    parts.iter().map(|part| part.1).reduce(wider)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use estampe_types::BufferData;
-
-    /// The extremes by the definition.
-    fn slowly(buffer: &BufferData, format: IndexFormat, [first, count]: [u32; 2]) -> [u32; 2] {
-        let indices = (first..first + count).map(|at| raw_index(buffer, format, at as usize));
-        [indices.clone().min().unwrap(), indices.max().unwrap()]
-    }
-
-    #[test]
-    fn extremes_in_lanes_are_those_of_each_index() {
-        let executor = Executor::new(2).unwrap();
-        let mut state = 1u32;
-        let mut byte = || {
-            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-            (state >> 24) as u8
-        };
-        for len in [40, 43, 600_000] {
-            let bytes: Vec<u8> = (0..len).map(|_| byte()).collect();
-            let buffer = BufferData::from_bytes(&bytes);
-            for format in [IndexFormat::Uint16, IndexFormat::Uint32] {
-                let all = u32::try_from(buffer.words().len()).unwrap();
-                let all = if format == IndexFormat::Uint16 {
-                    all * 2
-                } else {
-                    all
-                };
-                for range in [[0, all], [1, all - 1], [3, 4], [2, 1], [3, 1], [0, all - 1]] {
-                    let found = extremes_in_buffer(&executor, &buffer, format, range);
-                    assert_eq!(found, Some(slowly(&buffer, format, range)), "{range:?}");
-                }
-                let beyond = extremes_in_buffer(&executor, &buffer, format, [1, all + 2]);
-                assert_eq!(beyond, None);
-            }
-        }
-    }
 
     #[test]
     fn a_sparse_range_becomes_a_list() {

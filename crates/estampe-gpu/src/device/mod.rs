@@ -88,11 +88,11 @@ impl Device {
     }
 
     /// A device for profiling: it draws on the calling thread alone and measures the time of each
-    /// job.
+    /// job. The jobs are those of a device of this many threads, at least one.
     #[must_use]
-    pub fn profiling(level: Level) -> Self {
+    pub fn profiling(threads: usize, level: Level) -> Self {
         Self {
-            context: Context::profiling(level),
+            context: Context::profiling(threads, level),
             limits: Limits::default(),
             #[cfg(feature = "shader-text")]
             interprets_shaders: false,
