@@ -7,7 +7,7 @@ use crate::geometry::chunk::{ChunkScratch, Neighbours, add_part};
 use crate::geometry::shaded_vertices::{ShadedVertices, VertexJob};
 use crate::geometry::shading::{ShadingScratch, shade};
 use crate::layout::texel_words;
-use crate::plan::chunk_plan::{ChunkPart, ChunkPlan};
+use crate::plan::chunk_plan::{ChunkPart, ChunkPlan, VERTEX_CHUNK, part_size};
 use crate::plan::draw_batch::DrawBatch;
 use crate::plan::draw_cursor::DrawCursor;
 use crate::plan::draw_state::DrawState;
@@ -304,7 +304,9 @@ impl Context {
         memory.vertices.resize_for(batch.spans(group.clone()));
         let mut jobs = recycled(std::mem::take(&mut memory.lists.vertex_jobs));
         let spans = batch.spans(group.clone());
-        memory.vertices.split(spans, VERTEX_CHUNK, &mut jobs);
+        let all = spans.clone().map(|span| span.count).sum();
+        let size = part_size(all, executor.threads(), VERTEX_CHUNK);
+        memory.vertices.split(spans, size, &mut jobs);
         executor.for_each(&mut jobs, &memory.shading, |job, scratch| {
             let sub_draw = &batch.sub_draws[group.start + job.sub_draw];
             let source = sub_draw.vertex_source();
@@ -326,7 +328,8 @@ impl Context {
         memory: &mut Memory,
     ) -> usize {
         let sub_draws = &batch.sub_draws[group.clone()];
-        memory.chunk_plan.build(group.start, sub_draws);
+        let threads = self.executor.threads();
+        memory.chunk_plan.build(group.start, sub_draws, threads);
         let count = memory.chunk_plan.len();
         if memory.chunks.len() < before + count {
             memory.chunks.resize_with(before + count, Chunk::default);
@@ -447,9 +450,6 @@ impl Context {
         statistics
     }
 }
-
-/// Vertices that one worker shades at a time.
-const VERTEX_CHUNK: usize = 4096;
 
 /// Cuts a target into its tiles' slices.
 fn tile_jobs<'a>(target: &'a mut RenderTarget, jobs: &mut Vec<TileJob<'a>>) {

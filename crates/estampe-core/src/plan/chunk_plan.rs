@@ -1,17 +1,30 @@
 //! The chunk plan: which chunk takes which primitives of a batch.
 //!
-//! Chunks are cut by the draws alone, never by the number of threads, and tiles read them in order,
-//! so that an image does not depend on the number of threads. Small sub-draws share a chunk, large
-//! ones take several.
+//! Tiles read chunks in order, so that where a chunk ends changes no image. Small sub-draws share a
+//! chunk, large ones take several; with many threads chunks are smaller, so that all have some.
 
 use super::sub_draw::SubDraw;
 use crate::bounds::chunk::number;
 
-/// Primitives of a chunk at most, but for stippled strips, which are not cut.
-const CHUNK_PRIMITIVES: u32 = 4096;
+/// Primitives of a chunk at most, but for stippled strips, which are not cut; and where there are
+/// too few for the threads.
+const CHUNK_PRIMITIVES: [usize; 2] = [4096, 512];
 
 /// Sub-draws of a chunk at most: each costs about as much as the geometry of 64 triangles.
-const CHUNK_RUNS: usize = 64;
+const CHUNK_RUNS: [usize; 2] = [64, 8];
+
+/// Vertices that one worker shades at a time, and where there are too few for the threads.
+pub(crate) const VERTEX_CHUNK: [usize; 2] = [4096, 512];
+
+/// The size of the parts of a whole, of which several threads should have some each: between the
+/// most and the least.
+pub(crate) fn part_size(whole: usize, threads: usize, [most, least]: [usize; 2]) -> usize {
+    const PARTS_PER_THREAD: usize = 8;
+    match threads {
+        0 | 1 => most,
+        _ => (whole / (threads * PARTS_PER_THREAD)).clamp(least, most),
+    }
+}
 
 /// Primitives of one sub-draw that go into one chunk.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -28,13 +41,28 @@ pub(crate) struct ChunkPlan {
     parts: Vec<ChunkPart>,
     /// For each chunk the end of its parts, which begin where those of the chunk before end.
     ends: Vec<usize>,
+    most: Most,
+}
+
+/// The most that a chunk holds.
+#[derive(Debug, Default)]
+struct Most {
+    primitives: u32,
+    runs: usize,
 }
 
 impl ChunkPlan {
-    /// Divides the primitives of sub-draws, the first of which has a number in the batch.
-    pub(crate) fn build(&mut self, first: usize, sub_draws: &[SubDraw<'_>]) {
+    /// Divides the primitives of sub-draws, the first of which has a number in the batch, among
+    /// threads.
+    pub(crate) fn build(&mut self, first: usize, sub_draws: &[SubDraw<'_>], threads: usize) {
         self.parts.clear();
         self.ends.clear();
+        let all = sub_draws.iter().map(SubDraw::total_primitives).sum();
+        let size = part_size(all, threads, CHUNK_PRIMITIVES);
+        self.most = Most {
+            primitives: u32::try_from(size).unwrap_or(u32::MAX),
+            runs: part_size(sub_draws.len(), threads, CHUNK_RUNS),
+        };
         let mut open = OpenChunk::default();
         for (number, sub_draw) in (number(first)..).zip(sub_draws) {
             let total = sub_draw.total_primitives();
@@ -45,7 +73,7 @@ impl ChunkPlan {
             let total = u32::try_from(total).unwrap_or(u32::MAX);
             let size = sub_draw
                 .uncut_primitives()
-                .unwrap_or(CHUNK_PRIMITIVES)
+                .unwrap_or(self.most.primitives)
                 .max(1);
             self.add(number, total, size, &mut open);
         }
@@ -55,8 +83,8 @@ impl ChunkPlan {
     /// Adds a sub-draw that is cut into parts of `size` primitives, unless it fits into the open
     /// chunk whole.
     fn add(&mut self, sub_draw: u32, total: u32, size: u32, open: &mut OpenChunk) {
-        let is_full = open.runs == CHUNK_RUNS;
-        if is_full || open.primitives.saturating_add(total) > CHUNK_PRIMITIVES {
+        let is_full = open.runs >= self.most.runs;
+        if is_full || open.primitives.saturating_add(total) > self.most.primitives {
             self.close(open);
         }
         let mut from = 0;
@@ -110,8 +138,17 @@ struct OpenChunk {
 mod tests {
     use super::*;
 
+    const RUNS: usize = 64;
+
     fn plan(sub_draws: &[(u32, u32)]) -> Vec<Vec<(u32, [u32; 2])>> {
-        let (mut plan, mut open) = (ChunkPlan::default(), OpenChunk::default());
+        let mut plan = ChunkPlan {
+            most: Most {
+                primitives: 4096,
+                runs: RUNS,
+            },
+            ..ChunkPlan::default()
+        };
+        let mut open = OpenChunk::default();
         for (number, &(total, size)) in (0..).zip(sub_draws) {
             plan.add(number, total, size, &mut open);
         }
@@ -145,9 +182,21 @@ mod tests {
 
     #[test]
     fn a_chunk_has_a_limited_number_of_runs() {
-        let chunks = plan(&vec![(2, 4096); CHUNK_RUNS * 2 + 1]);
+        let chunks = plan(&vec![(2, 4096); RUNS * 2 + 1]);
         let sizes: Vec<usize> = chunks.iter().map(Vec::len).collect();
-        assert_eq!(sizes, [CHUNK_RUNS, CHUNK_RUNS, 1]);
+        assert_eq!(sizes, [RUNS, RUNS, 1]);
+    }
+
+    #[test]
+    fn each_thread_has_several_parts() {
+        let size = |whole, threads| part_size(whole, threads, VERTEX_CHUNK);
+        assert_eq!(size(10, 1), 4096);
+        // Few vertices: parts are not so small that their number costs time.
+        assert_eq!(size(10, 64), 512);
+        assert_eq!(size(65_536, 2), 4096);
+        assert_eq!(size(65_536, 16), 512);
+        assert_eq!(size(1_000_000, 64), 1953);
+        assert_eq!(size(10_000_000, 64), 4096);
     }
 
     #[test]
