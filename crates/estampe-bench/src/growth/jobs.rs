@@ -157,6 +157,14 @@ impl FrameCosts {
         self.serial_ns + shared.sum::<u64>()
     }
 
+    /// The ratio of the frame times on one core and on this many, of the same jobs: the machine's
+    /// speed while they were recorded does not count.
+    #[must_use]
+    pub fn speed_up(&self, cores: usize, wake_up: WakeUp) -> f64 {
+        let alone = self.on_cores_ns(1, wake_up) as f64;
+        alone / self.on_cores_ns(cores, wake_up).max(1) as f64
+    }
+
     /// The parts of the frame time on this many cores that are not parallel work.
     #[must_use]
     pub fn limits(&self, cores: usize, wake_up: WakeUp) -> Limits {
@@ -216,13 +224,6 @@ impl CostsByCores {
             alone: FrameCosts::record((1, level), scene, size)?,
             of_cores: cores.iter().map(of).collect::<Result<_, BenchError>>()?,
         })
-    }
-
-    /// The ratio of the frame times on one core and on one of the recorded numbers of cores.
-    #[must_use]
-    pub fn speed_up(&self, (cores, costs): &(usize, FrameCosts), wake_up: WakeUp) -> f64 {
-        let alone = self.alone.on_cores_ns(1, wake_up) as f64;
-        alone / costs.on_cores_ns(*cores, wake_up).max(1) as f64
     }
 }
 
@@ -298,12 +299,7 @@ mod tests {
     #[test]
     fn amdahls_law_holds() {
         let frame = costs(100, &[(JobKind::Tiles, vec![1; 900])]);
-        let of_nine = (9, frame.clone());
-        let by_cores = CostsByCores {
-            alone: frame.clone(),
-            of_cores: vec![of_nine.clone()],
-        };
-        assert!((by_cores.speed_up(&of_nine, FREE) - 5.0).abs() < 1e-9);
+        assert!((frame.speed_up(9, FREE) - 5.0).abs() < 1e-9);
         let limits = frame.limits(9, FREE);
         assert!((limits.serial - 0.5).abs() < 1e-9);
         assert!(limits.waiting.iter().all(|(_, share)| share.abs() < 1e-9));

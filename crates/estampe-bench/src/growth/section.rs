@@ -197,9 +197,9 @@ fn cores(results: &Results, out: &mut String) {
     for (name, frame, measured) in &results.scenes {
         let alone = frame.alone.on_cores_ns(1, wake_up) as f64 * 1e-6;
         let _ = write!(out, "| {name} | {} | {measured:.2} |", significant(alone));
-        for of_cores in &frame.of_cores {
-            let awake = frame.speed_up(of_cores, WakeUp::default());
-            let asleep = frame.speed_up(of_cores, wake_up);
+        for (cores, costs) in &frame.of_cores {
+            let awake = costs.speed_up(*cores, WakeUp::default());
+            let asleep = costs.speed_up(*cores, wake_up);
             let _ = write!(out, " {awake:.1} ({asleep:.1}) |");
         }
         let most = frame.of_cores.last().map(|(_, costs)| obstacles(costs));
