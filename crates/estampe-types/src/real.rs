@@ -191,9 +191,9 @@ pub trait Real:
     fn quad_lane(self, index: u8) -> Self;
 
     /// Calls `work` in a separate function that is compiled for this kind of number. For code that
-    /// many shaders share, which then do not each contain it, and for the parts of a long shader: the
-    /// compiler's time grows faster than the length of a function. A call takes a few nanoseconds
-    /// for a packet. A closure must be inlined into that function:
+    /// many shaders share, which then do not each contain it, and for the parts of a long shader:
+    /// the compiler's time grows faster than the length of a function. A call takes a few
+    /// nanoseconds for a packet. A closure must be inlined into that function:
     ///
     /// ```
     /// use estampe_types::{Real, Vec3};
