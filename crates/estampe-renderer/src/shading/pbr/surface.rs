@@ -270,10 +270,7 @@ impl PbrSurface {
             tone_map,
             ..
         } = &*self.lighting;
-        let (point, behind) = input.zero.out_of_line(
-            #[inline(always)]
-            || self.point(input, v, base),
-        );
+        let (point, behind) = self.point(input, v, base);
         let leaving = point.leaving(environment, lights);
         let mut emitted = Vec3::uniform(input.zero, parameters.emissive);
         if let Some(texture) = &parameters.emissive_texture {
