@@ -6,14 +6,16 @@
 use super::sub_draw::SubDraw;
 use crate::bounds::chunk::number;
 
-/// Primitives of a chunk at most, but for stippled strips, which are not cut; and where there are
-/// too few for the threads.
+/// Primitives of a chunk at most, but for stippled strips, which are not cut; then the limit where
+/// there are too few for the threads.
 const CHUNK_PRIMITIVES: [usize; 2] = [4096, 512];
 
-/// Sub-draws of a chunk at most: each costs about as much as the geometry of 64 triangles.
+/// Sub-draws of a chunk at most, then the limit where there are too few for the threads: each costs
+/// about as much as the geometry of 64 triangles.
 const CHUNK_RUNS: [usize; 2] = [64, 8];
 
-/// Vertices that one worker shades at a time, and where there are too few for the threads.
+/// Vertices that one worker shades at a time, then their number where there are too few for the
+/// threads.
 pub(crate) const VERTEX_CHUNK: [usize; 2] = [4096, 512];
 
 /// The size of the parts of a whole, of which several threads should have some each: between the

@@ -14,7 +14,7 @@ const KNOWN: usize = 64;
 /// A range of indices: the buffer's words by address and number, format, first and count.
 type RangeKey = (usize, usize, IndexFormat, [u32; 2]);
 
-/// What ranges of a pass's index buffers hold. Buffers do not change during a pass, so their
+/// The extremes of ranges of a pass's index buffers. Buffers do not change during a pass, so their
 /// addresses name them.
 #[derive(Debug)]
 pub(super) struct KnownExtremes {
@@ -27,7 +27,7 @@ pub(super) struct KnownExtremes {
 }
 
 impl KnownExtremes {
-    /// Nothing is known yet; indices are read at a SIMD level.
+    /// No ranges yet. Indices are read at a SIMD level.
     pub(super) fn new(level: Level) -> Self {
         Self {
             level,

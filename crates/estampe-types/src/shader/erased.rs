@@ -218,8 +218,7 @@ impl<T: Shader> ShaderProgram<T> {
 }
 
 /// The inputs of fragments beside their varyings. Without closures, and apart from the shader's
-/// type: arrays' `map` is five functions for each closure of each shader, which were a third of
-/// what the compiler had to do for short ones.
+/// type: arrays' `map` is five functions for each closure of each shader at each level.
 #[inline(always)]
 fn input_of<'b, S: Lanes, R: Packets<S>>(
     simd: S,
