@@ -50,8 +50,8 @@ pub struct CompareArguments {
         default_value = "1280x720,1920x1080"
     )]
     pub sizes: Vec<FrameSize>,
-    /// Rounds, of which the least disturbed one counts
-    #[arg(long, default_value_t = 2, value_name = "N")]
+    /// Rounds, of which the one with the fastest frame counts
+    #[arg(long, default_value_t = 4, value_name = "N")]
     pub rounds: usize,
     /// Measure few frames in one round without limits, and leave PERFORMANCE.md unchanged
     #[arg(long)]

@@ -2,7 +2,7 @@
 
 use super::limits::Limits;
 use super::peer::{Effort, Session};
-use super::results::{Measured, RunResults, choose};
+use super::results::{Measured, RunResults, fastest};
 use super::table::{Line, Ours};
 use crate::BenchError;
 use crate::frame::FrameSize;
@@ -72,7 +72,7 @@ impl Runs {
     ) -> Result<Line, BenchError> {
         let name = self.scene.name;
         let found = |runs: &[RunResults], who: &str| -> Result<Measured, BenchError> {
-            choose(runs, name, size).ok_or_else(|| BenchError::Command {
+            fastest(runs, name, size).ok_or_else(|| BenchError::Command {
                 command: who.to_owned(),
                 reason: format!("measured no {name} at {size}"),
             })

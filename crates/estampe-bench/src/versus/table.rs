@@ -47,7 +47,7 @@ impl Line {
     /// The peer's time divided by ours in a language; `None` if the scene is not drawn in it.
     #[must_use]
     pub fn ratio(&self, language: ShaderLanguage) -> Option<f64> {
-        Some(self.theirs.median_ms / self.of(language)?.median_ms)
+        Some(self.theirs.min_ms / self.of(language)?.min_ms)
     }
 
     fn of(&self, language: ShaderLanguage) -> Option<&Measured> {
@@ -67,7 +67,7 @@ impl Line {
             return String::new();
         };
         let share = limit.map_or(String::new(), |limit| {
-            format!("{:.0} %", limit / ours.median_ms * 100.0)
+            format!("{:.0} %", limit / ours.min_ms * 100.0)
         });
         let off = match difference.beyond {
             0 => "0".to_owned(),
@@ -88,16 +88,12 @@ impl Line {
         } else {
             "no"
         };
-        let mut text = format!(
-            "| {}{data} | {} |",
-            self.scene,
-            milliseconds(theirs.median_ms)
-        );
+        let mut text = format!("| {}{data} | {} |", self.scene, milliseconds(theirs.min_ms));
         for language in ShaderLanguage::ALL {
             let cells = self.of(language).zip(self.ratio(language));
             let cells = cells.map_or_else(
                 || "  |  ".to_owned(),
-                |(ours, ratio)| format!("{} | {ratio:.2}", milliseconds(ours.median_ms)),
+                |(ours, ratio)| format!("{} | {ratio:.2}", milliseconds(ours.min_ms)),
             );
             let _ = write!(text, " {cells} |");
         }
@@ -207,14 +203,12 @@ pub(super) mod tests {
     use crate::scene::SceneEntry;
 
     pub(crate) fn line(scene: &'static str, theirs_ms: f64, ours_ms: f64) -> Line {
-        let measured = |median_ms: f64| Measured {
+        let measured = |min_ms: f64| Measured {
             scene: scene.to_owned(),
             w: 64,
             h: 48,
             fingerprint: "0f".to_owned(),
-            median_ms,
-            cpu_ms: median_ms * 2.0,
-            other_cores: 0.0,
+            min_ms,
             readback_ms: 0.25,
             copy_ms: 0.125,
             fragments: 0,
