@@ -269,14 +269,28 @@ impl Lanes for fearless_simd::Fallback {
         work()
     }
 
+    // Lane by lane: the operations of sixteen lanes are made of those of four, and each step copies
+    // its lanes, in dev builds by calls.
     #[inline(never)]
     fn min_f32(self, a: f32x16<Self>, b: f32x16<Self>) -> f32x16<Self> {
-        a.simd_lt(b).select(a, b)
+        let mut least = b;
+        for (least, a) in least.iter_mut().zip(a.as_slice()) {
+            if *a < *least {
+                *least = *a;
+            }
+        }
+        least
     }
 
     #[inline(never)]
     fn max_f32(self, a: f32x16<Self>, b: f32x16<Self>) -> f32x16<Self> {
-        a.simd_gt(b).select(a, b)
+        let mut greatest = b;
+        for (greatest, a) in greatest.iter_mut().zip(a.as_slice()) {
+            if *a > *greatest {
+                *greatest = *a;
+            }
+        }
+        greatest
     }
 
     #[inline(never)]
