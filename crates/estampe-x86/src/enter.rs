@@ -6,6 +6,7 @@
 
 use crate::executable::Executable;
 use crate::frame::{self, Frame};
+use crate::select::calls::Kind;
 use crate::serve::{Call, Context};
 use estampe_simd::Packet;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -71,24 +72,9 @@ unsafe extern "sysv64" fn serve(frame: *mut Line, call: u32) {
         return;
     }
     let layout: &Frame = context.frame;
-    let locals = layout.locals.first().copied().unwrap_or(layout.spills);
-    let local_packets = (layout.spills - locals) / frame::PACKET;
-    let state = frame.cast::<u8>().wrapping_add(frame::STATE as usize);
-    // SAFETY: the place is in the head, aligned to its eight bytes.
-    let state = unsafe { *state.cast::<u64>() };
-    let first = frame.expose_provenance() as u64;
-    let state = usize::try_from(state.wrapping_sub(first)).expect("addresses have 64 bits");
-    let last = (context.states - 1) * layout.state_bytes() as usize;
-    let is_state = state <= last && state.is_multiple_of(size_of::<Line>());
-    assert!(is_state, "code is in the state of one of its packets");
-    let locals = frame.cast::<u8>().wrapping_add(state + locals as usize);
-    // SAFETY: the arrays lie between the pointers and the spilled registers of a state, aligned to
-    // lines; the words are initialised, and the code waits.
-    let locals = unsafe {
-        std::slice::from_raw_parts_mut(locals.cast::<Packet<u32>>(), local_packets as usize)
-    };
     if call == frame::RESET_LOCALS {
-        context.reset_locals(locals);
+        // SAFETY: as for this function.
+        context.reset_locals(unsafe { locals(frame, context) });
         return;
     }
     let Some(served) = context.served.get(call as usize) else {
@@ -109,13 +95,20 @@ unsafe extern "sysv64" fn serve(frame: *mut Line, call: u32) {
     let mut mask_result = 0;
     // A panic, of a caller's texture, must not go through machine code: it goes on in `Code::run`.
     let done = catch_unwind(AssertUnwindSafe(|| {
-        let of_packet = (served.operands + served.results).max(1);
-        // An operation without operands and results is none that is served.
-        for (arguments, mask) in arguments.chunks_mut(of_packet).zip(masks) {
+        let of_packet = served.operands + served.results;
+        let mut left = arguments;
+        for mask in masks.into_iter().take(served.lanes) {
+            let (arguments, others) = left.split_at_mut(of_packet);
+            left = others;
+            if let Kind::Textures(ops, common) = &served.kind {
+                context.access_textures((ops, *common), served, arguments, mask);
+                continue;
+            }
             let mut call = Call {
                 served,
                 arguments,
-                locals,
+                // SAFETY: as for this function; no other call has them.
+                locals: unsafe { locals(frame, context) },
                 mask,
                 mask_result: 0,
             };
@@ -136,4 +129,27 @@ unsafe extern "sysv64" fn serve(frame: *mut Line, call: u32) {
     // SAFETY: the place is in the head, aligned to its two bytes; the code reads it when this
     // function returns.
     unsafe { *place.cast::<u16>() = mask_result };
+}
+
+/// The words of all arrays of the packet that runs.
+///
+/// # Safety
+/// `frame` is the frame that [`enter`] was given with this context, and the code that it entered
+/// waits for a call. There is no other reference to the words.
+unsafe fn locals<'a>(frame: *mut Line, context: &Context<'_>) -> &'a mut [Packet<u32>] {
+    let layout: &Frame = context.frame;
+    let locals = layout.locals.first().copied().unwrap_or(layout.spills);
+    let local_packets = (layout.spills - locals) / frame::PACKET;
+    let state = frame.cast::<u8>().wrapping_add(frame::STATE as usize);
+    // SAFETY: the place is in the head, aligned to its eight bytes.
+    let state = unsafe { *state.cast::<u64>() };
+    let first = frame.expose_provenance() as u64;
+    let state = usize::try_from(state.wrapping_sub(first)).expect("addresses have 64 bits");
+    let last = (context.states - 1) * layout.state_bytes() as usize;
+    let is_state = state <= last && state.is_multiple_of(size_of::<Line>());
+    assert!(is_state, "code is in the state of one of its packets");
+    let locals = frame.cast::<u8>().wrapping_add(state + locals as usize);
+    // SAFETY: the arrays lie between the pointers and the spilled registers of a state, aligned to
+    // lines; the words are initialised, and the code waits.
+    unsafe { std::slice::from_raw_parts_mut(locals.cast::<Packet<u32>>(), local_packets as usize) }
 }

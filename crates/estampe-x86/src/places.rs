@@ -3,46 +3,52 @@
 use estampe_ir::Type;
 use estampe_ir::interpreter::{InputData, OutputData};
 
-/// The slice of an input or output.
+/// Where the packets of an input or output are in a run.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Slice {
-    address: usize,
-    len: usize,
-    /// The element of packet 0, and the elements from one packet to the next.
-    first: usize,
-    stride: usize,
+pub(crate) struct Track {
+    /// The address of packet 0.
+    start: usize,
+    /// The bytes from one packet to the next.
+    step: usize,
+    /// The packets that are in memory, from the first on. The others are at a place that does not
+    /// move; all are, of an input that is the same in all packets or an output that goes nowhere.
+    packets: usize,
 }
 
-/// Where a packet is.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Found {
-    /// Its address; `None` beyond the end.
-    pub(crate) address: Option<usize>,
-    /// True if the packets up to the last one are in the slice, too.
-    pub(crate) is_inside: bool,
-}
-
-impl Found {
+impl Track {
     /// Nowhere in memory, for all packets.
     pub(crate) const STILL: Self = Self {
-        address: None,
-        is_inside: true,
+        start: 0,
+        step: 0,
+        packets: 0,
     };
-}
 
-impl Slice {
-    fn new<T>(slice: &[T], (first, stride): (usize, usize)) -> Self {
+    /// The packets in a slice of which packet 0 is at `first`, and the others `stride` elements
+    /// after each other, up to the last packet of a run. `bytes` are those of an element.
+    #[inline(always)]
+    fn new<T>(slice: &[T], (first, stride): (usize, usize), bytes: usize, last: usize) -> Self {
+        let Some(behind) = slice.len().checked_sub(first).filter(|len| *len > 0) else {
+            return Self::STILL;
+        };
+        let is_last_inside = last.checked_mul(stride).is_some_and(|last| last < behind);
         Self {
-            address: slice.as_ptr().expose_provenance(),
-            len: slice.len(),
-            first,
-            stride,
+            // An element of the slice: no overflow.
+            start: slice.as_ptr().expose_provenance() + first * bytes,
+            // No overflow that counts: a packet that is reached by a step is inside.
+            step: stride.wrapping_mul(bytes),
+            packets: if is_last_inside {
+                last + 1
+            } else {
+                // A stride of 0 leads nowhere else, so the last packet is then inside.
+                behind.div_ceil(stride)
+            },
         }
     }
 
-    /// An input's slice; `None` if it is the same in all packets.
+    /// An input's packets.
     #[inline(always)]
-    pub(crate) fn of_input(input: &InputData<'_>, kind: Type) -> Option<Self> {
+    pub(crate) fn of_input(input: &InputData<'_>, kind: Type, last: usize) -> Self {
+        let bytes = bytes_of(kind);
         match (*input, kind) {
             (
                 InputData::Words {
@@ -51,7 +57,7 @@ impl Slice {
                     stride,
                 },
                 Type::Word,
-            ) => Some(Self::new(packets, (first, stride))),
+            ) => Self::new(packets, (first, stride), bytes, last),
             (
                 InputData::Floats {
                     packets,
@@ -59,16 +65,17 @@ impl Slice {
                     stride,
                 },
                 Type::Word,
-            ) => Some(Self::new(packets, (first, stride))),
-            (InputData::Mask(bits), Type::Mask) => Some(Self::new(bits, (0, 1))),
-            (InputData::SharedMask(bits), Type::Mask) => Some(Self::new(bits, (0, 1))),
-            _ => None,
+            ) => Self::new(packets, (first, stride), bytes, last),
+            (InputData::Mask(bits), Type::Mask) => Self::new(bits, (0, 1), bytes, last),
+            (InputData::SharedMask(bits), Type::Mask) => Self::new(bits, (0, 1), bytes, last),
+            _ => Self::STILL,
         }
     }
 
-    /// An output's slice; `None` if it goes nowhere.
+    /// An output's packets.
     #[inline(always)]
-    pub(crate) fn of_output(output: &OutputData<'_>, kind: Type) -> Option<Self> {
+    pub(crate) fn of_output(output: &OutputData<'_>, kind: Type, last: usize) -> Self {
+        let bytes = bytes_of(kind);
         match (*output, kind) {
             (
                 OutputData::Words {
@@ -77,7 +84,7 @@ impl Slice {
                     stride,
                 },
                 Type::Word,
-            ) => Some(Self::new(packets, (first, stride))),
+            ) => Self::new(packets, (first, stride), bytes, last),
             (
                 OutputData::Floats {
                     packets,
@@ -85,37 +92,41 @@ impl Slice {
                     stride,
                 },
                 Type::Word,
-            ) => Some(Self::new(packets, (first, stride))),
-            (OutputData::Mask(bits), Type::Mask) => Some(Self::new(bits, (0, 1))),
-            _ => None,
+            ) => Self::new(packets, (first, stride), bytes, last),
+            (OutputData::Mask(bits), Type::Mask) => Self::new(bits, (0, 1), bytes, last),
+            _ => Self::STILL,
         }
     }
 
-    /// The place of a packet whose elements have so many bytes, in a run up to the last one.
+    /// True if a packet is where those before it lead: in memory, or where all are.
     #[inline(always)]
-    pub(crate) fn find(&self, bytes: usize, [packet, last]: [usize; 2]) -> Found {
-        let element = |packet: usize| {
-            let at = packet.checked_mul(self.stride)?.checked_add(self.first)?;
-            (at < self.len).then_some(at)
-        };
-        let at = element(packet);
-        Found {
-            // An element of the slice: no overflow.
-            address: at.map(|at| self.address + at * bytes),
-            is_inside: at.is_some() && (packet == last || element(last).is_some()),
-        }
+    pub(crate) fn has(&self, packet: usize) -> bool {
+        self.packets == 0 || packet < self.packets
     }
 
-    /// The bytes from one packet to the next, of which no overflow counts: the next one is inside.
+    /// True if the packets up to this one are in memory.
     #[inline(always)]
-    pub(crate) fn step(&self, bytes: usize) -> usize {
-        self.stride.wrapping_mul(bytes)
+    pub(crate) fn moves_up_to(&self, packet: usize) -> bool {
+        packet < self.packets
+    }
+
+    /// The address of a packet; `None` if it is at the place that does not move.
+    #[inline(always)]
+    pub(crate) fn address(&self, packet: usize) -> Option<usize> {
+        let address = self.start.wrapping_add(self.step.wrapping_mul(packet));
+        (packet < self.packets).then_some(address)
+    }
+
+    /// The bytes from one packet to the next.
+    #[inline(always)]
+    pub(crate) fn step(&self) -> usize {
+        self.step
     }
 }
 
 /// The bytes of a packet of words, or of a mask.
 #[inline(always)]
-pub(crate) fn bytes_of(kind: Type) -> usize {
+fn bytes_of(kind: Type) -> usize {
     match kind {
         Type::Word => crate::frame::PACKET as usize,
         Type::Mask => size_of::<u16>(),

@@ -3,7 +3,7 @@
 use crate::Code;
 use crate::enter::{Line, enter};
 use crate::frame::{self, PACKET};
-use crate::places::{Found, Slice, bytes_of};
+use crate::places::Track;
 use crate::serve::Context;
 use estampe_ir::Type;
 use estampe_ir::interpreter::{Buffer, InputData, Run, Stopped, Words};
@@ -22,6 +22,8 @@ pub struct Scratch {
     padded: Vec<Vec<u32>>,
     /// The memory of a work-group.
     workgroup: Vec<AtomicU32>,
+    /// Where the packets of the run are, of each input, then of each output.
+    tracks: Vec<Track>,
 }
 
 /// Bytes of a line.
@@ -63,8 +65,12 @@ impl Code {
         self.set_table(run, &mut scratch.lines);
         self.set_buffers(run, scratch);
         let Scratch {
-            lines, workgroup, ..
+            lines,
+            workgroup,
+            tracks,
+            ..
         } = scratch;
+        self.find_packets(run, tracks, lines);
         let context = Context {
             served: &self.served,
             frame: &self.frame,
@@ -81,9 +87,9 @@ impl Code {
             enter(&self.executable, prepare, lines, &context);
         }
         let stopped = if self.workgroup_words.is_some() {
-            self.run_workgroup(run, lines, &context)
+            self.run_workgroup(run, (tracks, lines), &context)
         } else {
-            self.run_packets(run, lines, &context)
+            self.run_packets(run, (tracks, lines), &context)
         };
         if let Some(panic) = context.panic.take() {
             std::panic::resume_unwind(panic);
@@ -95,12 +101,12 @@ impl Code {
     fn run_workgroup(
         &self,
         run: &Run<'_>,
-        lines: &mut [Line],
+        (tracks, lines): (&[Track], &mut [Line]),
         context: &Context<'_>,
     ) -> Result<(), Stopped> {
         let state_bytes = self.frame.state_bytes();
         for (packet, state) in (0..run.packets).zip((0..).step_by(state_bytes as usize)) {
-            self.set_packets(run, lines, (packet, 1), state);
+            self.set_packets(tracks, lines, (packet, 1), state);
         }
         set_head(lines, frame::PACKETS, run.packets as u64);
         match enter(&self.executable, self.packet, lines, context) {
@@ -113,10 +119,12 @@ impl Code {
     fn run_packets(
         &self,
         run: &Run<'_>,
-        lines: &mut [Line],
+        (tracks, lines): (&[Track], &mut [Line]),
         context: &Context<'_>,
     ) -> Result<(), Stopped> {
         let mut packet = 0;
+        // Where some slice is too short, the places of each pass are looked for.
+        let are_inside = tracks.iter().all(|track| track.has(run.packets - 1));
         while packet < run.packets && !context.has_panicked() {
             let left = run.packets - packet;
             // The last packet of an odd number runs alone.
@@ -124,9 +132,8 @@ impl Code {
                 Some(pair) if left > 1 => (pair, 2),
                 _ => (self.packet, 1),
             };
-            let is_inside = self.set_packets(run, lines, (packet, of_pass), 0);
-            // Where some slice is too short, the places of each pass are looked for.
-            let passes = if is_inside { left / of_pass } else { 1 };
+            self.set_packets(tracks, lines, (packet, of_pass), 0);
+            let passes = if are_inside { left / of_pass } else { 1 };
             set_head(lines, frame::LEFT, passes as u64);
             if enter(&self.executable, function, lines, context) != 0 {
                 return Err(Stopped::Budget);
@@ -212,77 +219,56 @@ impl Code {
         }
     }
 
-    /// Sets the pointers of inputs and outputs to the packets of a pass, so many from the first on,
-    /// and their steps, in the state that is so many bytes after the first one. Returns true if the
-    /// steps lead to every later packet.
-    fn set_packets(
-        &self,
-        run: &Run<'_>,
-        lines: &mut [Line],
-        (first, count): (usize, usize),
-        state: usize,
-    ) -> bool {
-        let frame = lines.as_mut_ptr().expose_provenance();
-        let place = |pointer: u32| pointer as usize + state;
-        let mut are_inside = true;
+    /// Finds the packets of all inputs and outputs, and sets the packets that do not move: of an
+    /// input that is the same in all packets, and of one whose slice ends before the run does.
+    fn find_packets(&self, run: &Run<'_>, tracks: &mut Vec<Track>, lines: &mut [Line]) {
+        tracks.clear();
+        let last = run.packets - 1;
         for (at, &kind) in (0..).zip(&self.input_types) {
             let given = run.inputs.get(at as usize);
-            let slice = given.and_then(|input| Slice::of_input(input, kind));
-            let still = self.frame.still + at * PACKET;
-            let mut is_still = slice.is_none();
-            for (packet, of_pass) in (first..).zip(0..).take(count) {
-                let place = place(self.frame.input(at, of_pass));
-                let packets = ([packet, run.packets - 1], count);
-                let found = self.set(
-                    lines,
-                    (place, frame + still as usize),
-                    (slice, kind),
-                    packets,
-                );
-                are_inside &= found.is_inside;
-                is_still |= found.address.is_none();
-            }
-            if is_still {
-                // A packet that does not move: zeros, or a uniform word in all lanes.
+            let track = given.map_or(Track::STILL, |input| Track::of_input(input, kind, last));
+            if !track.moves_up_to(last) {
+                let still = self.frame.still + at * PACKET;
                 lines[(still / LINE) as usize] = splat(match (given, kind) {
                     (Some(InputData::Uniform(word)), Type::Word) => *word,
                     (Some(InputData::Uniform(1..)), Type::Mask) => u32::MAX,
                     _ => 0,
                 });
             }
+            tracks.push(track);
         }
-        let sink = frame + self.frame.sink as usize;
-        for (at, &kind) in (0..).zip(&self.output_types) {
-            let given = run.outputs.get(at as usize);
-            let slice = given.and_then(|output| Slice::of_output(output, kind));
-            for (packet, of_pass) in (first..).zip(0..).take(count) {
-                let place = place(self.frame.output(at, of_pass));
-                let packets = ([packet, run.packets - 1], count);
-                let found = self.set(lines, (place, sink), (slice, kind), packets);
-                are_inside &= found.is_inside;
-            }
+        for (at, &kind) in self.output_types.iter().enumerate() {
+            let given = run.outputs.get(at);
+            tracks.push(given.map_or(Track::STILL, |to| Track::of_output(to, kind, last)));
         }
-        are_inside
     }
 
-    /// Sets a pointer and its step: to a packet of a slice, or without one to a place that does not
-    /// move.
-    #[inline(always)]
-    fn set(
+    /// Sets the pointers of inputs and outputs to the packets of a pass, so many from the first on,
+    /// and their steps, in the state that is so many bytes after the first one.
+    fn set_packets(
         &self,
+        tracks: &[Track],
         lines: &mut [Line],
-        (pointer, still): (usize, usize),
-        (slice, kind): (Option<Slice>, Type),
-        (packets, count): ([usize; 2], usize),
-    ) -> Found {
-        let bytes = bytes_of(kind);
-        let found = slice.map_or(Found::STILL, |slice| slice.find(bytes, packets));
-        set_pointer(lines, pointer, found.address.unwrap_or(still));
-        let stride = slice.map_or(0, |slice| slice.step(bytes));
-        let step = if found.is_inside { stride } else { 0 };
-        let step = step.wrapping_mul(count);
-        set_pointer(lines, pointer + self.frame.pointer_bytes() as usize, step);
-        found
+        (first, count): (usize, usize),
+        state: usize,
+    ) {
+        let frame = lines.as_mut_ptr().expose_provenance();
+        let steps = self.frame.pointer_bytes() as usize;
+        let inputs = self.input_types.len();
+        let mut pointer = self.frame.pointers as usize + state;
+        for packet in first..first + count {
+            let mut still = frame + self.frame.still as usize;
+            for (at, track) in tracks.iter().enumerate() {
+                // An output that goes nowhere goes into the sink.
+                if at == inputs {
+                    still = frame + self.frame.sink as usize;
+                }
+                set_pointer(lines, pointer, track.address(packet).unwrap_or(still));
+                set_pointer(lines, pointer + steps, track.step().wrapping_mul(count));
+                still += if at < inputs { PACKET as usize } else { 0 };
+                pointer += 8;
+            }
+        }
     }
 }
 

@@ -3,8 +3,8 @@
 use crate::compile::ResetLocal;
 use crate::frame::{Frame, PACKET};
 use crate::select::calls::{Kind, Served};
-use estampe_ir::interpreter::{Buffer, Run, TextureAccess, TextureAccesses, atomic};
-use estampe_ir::op::Memory;
+use estampe_ir::interpreter::{Buffer, Common, Run, TextureAccess, TextureAccesses, atomic};
+use estampe_ir::op::{Memory, TextureOp};
 use estampe_simd::{LANES, Level, Packet};
 use std::any::Any;
 use std::cell::RefCell;
@@ -125,28 +125,37 @@ impl Context<'_> {
                     call.mask_result |= u16::from(exchanged.is_ok()) << lane;
                 }
             }
-            (Kind::Textures(ops, common), operands, results) => {
-                let masks = [call.mask];
-                if let [op] = &ops[..] {
-                    let access = TextureAccess::new(op, (self.level, &masks), operands, results);
-                    self.run.textures.access(access);
-                } else {
-                    let ops = (&ops[..], *common);
-                    let accesses =
-                        TextureAccesses::new(ops, (self.level, &masks), operands, results);
-                    self.run.textures.access_all(accesses);
-                }
-                if call.served.uniform == 0 {
-                    return;
-                }
-                for (bit, result) in results.iter_mut().enumerate() {
-                    if call.served.uniform >> bit & 1 == 1 {
-                        let first = lanes.clone().next();
-                        *result = Packet([first.map_or(0, |lane| result.0[lane]); LANES]);
-                    }
-                }
-            }
             _ => debug_assert!(false, "a call has the packets of its kind"),
+        }
+    }
+
+    /// Accesses textures, as the code asks for.
+    #[inline]
+    pub(crate) fn access_textures(
+        &self,
+        (ops, common): (&[TextureOp], Common),
+        served: &Served,
+        arguments: &mut [Packet<u32>],
+        mask: u16,
+    ) {
+        let masks = [mask];
+        let (operands, results) = arguments.split_at_mut(served.operands);
+        if let ([op], Common::Nothing) = (ops, common) {
+            let access = TextureAccess::new(op, (self.level, &masks), operands, results);
+            self.run.textures.access(access);
+        } else {
+            let ops = (ops, common);
+            let accesses = TextureAccesses::new(ops, (self.level, &masks), operands, results);
+            self.run.textures.access_all(accesses);
+        }
+        if served.uniform == 0 {
+            return;
+        }
+        let first = (0..LANES).find(|lane| mask >> lane & 1 == 1);
+        for (bit, result) in results.iter_mut().enumerate() {
+            if served.uniform >> bit & 1 == 1 {
+                *result = Packet([first.map_or(0, |lane| result.0[lane]); LANES]);
+            }
         }
     }
 

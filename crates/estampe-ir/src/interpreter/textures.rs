@@ -164,6 +164,20 @@ impl<'a> TextureAccess<'a> {
         self.results
     }
 
+    /// The access to a single packet as the only one of several; `None` of more packets.
+    #[must_use]
+    pub fn as_several(&mut self) -> Option<TextureAccesses<'_>> {
+        let ops = std::slice::from_ref(self.op);
+        Some(TextureAccesses {
+            ops,
+            common: Common::of(ops),
+            level: self.level,
+            mask: self.mask.first_chunk().filter(|_| self.packets == 1)?,
+            operands: self.operands,
+            results: self.results,
+        })
+    }
+
     #[inline]
     fn first_of_level(&self) -> usize {
         self.op.coordinates.len() + usize::from(self.op.layer.is_some())
@@ -385,6 +399,10 @@ mod tests {
         assert_eq!(of(&levels), Common::Nothing);
         let computed = [sample(0, here, Explicit(Value(5))), sample(0, there, Zero)];
         assert_eq!(of(&computed), Common::Nothing);
+        // An access alone has all in common with itself.
+        assert_eq!(of(&taps[..1]), Common::Texture);
+        assert_eq!(of(&maps[..1]), Common::Coordinates);
+        assert_eq!(of(&computed[..1]), Common::Nothing);
         let others = [sample(0, here, Zero), sample(1, there, Zero)];
         assert_eq!(of(&others), Common::Nothing);
         let mut compared = [taps.to_vec(), levels.to_vec()].concat();

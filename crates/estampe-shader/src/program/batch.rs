@@ -59,9 +59,12 @@ pub(super) fn with_vertices<T>(
         _ => OutputData::Dropped,
     };
     let interface = stage.interface();
-    let inputs: Vec<_> = interface.inputs.iter().map(input).collect();
-    let outputs: Vec<_> = interface.outputs.iter().map(output).collect();
-    run(packets, &inputs, &outputs)
+    let mut ends = Ends::take();
+    ends.inputs.extend(interface.inputs.iter().map(input));
+    ends.outputs.extend(interface.outputs.iter().map(output));
+    let result = run(packets, &ends.inputs, &ends.outputs);
+    ends.give_back();
+    result
 }
 
 /// The places of a batch of fragments, of one packet each time if the sample index is read: it
@@ -80,6 +83,8 @@ pub(super) fn with_fragments<E>(
     let (depths, masks) = (cells(batch.depths), cells(batch.sample_masks));
     let step = if by_packet { 1 } else { all.max(1) };
     let scalars = widths.varyings + 2 * gradients.len();
+    let mut ends = Ends::take();
+    let mut result = Ok(());
     for first in (0..all).step_by(step) {
         let coverage: &[Cell<u16>] = &coverage[first..];
         let floats = |packets, part: usize, stride: usize| {
@@ -126,11 +131,53 @@ pub(super) fn with_fragments<E>(
             Output::Cover => OutputData::Mask(coverage),
             _ => OutputData::Dropped,
         };
-        let inputs: Vec<_> = interface.inputs.iter().map(input).collect();
-        let outputs: Vec<_> = interface.outputs.iter().map(output).collect();
-        run(step.min(all - first), &inputs, &outputs)?;
+        ends.inputs.clear();
+        ends.inputs.extend(interface.inputs.iter().map(input));
+        ends.outputs.clear();
+        ends.outputs.extend(interface.outputs.iter().map(output));
+        result = run(step.min(all - first), &ends.inputs, &ends.outputs);
+        if result.is_err() {
+            break;
+        }
     }
-    Ok(())
+    ends.give_back();
+    result
+}
+
+thread_local! {
+    /// The memory of the last batch's inputs and outputs, which are none now.
+    static ENDS: Cell<Ends<'static>> = Cell::default();
+}
+
+/// The inputs and outputs of a batch.
+#[derive(Debug, Default)]
+struct Ends<'a> {
+    inputs: Vec<InputData<'a>>,
+    outputs: Vec<OutputData<'a>>,
+}
+
+impl<'a> Ends<'a> {
+    /// None, with room for those of the thread's last batch.
+    fn take() -> Self {
+        ENDS.take().emptied()
+    }
+
+    /// Keeps the room for the thread's next batch.
+    fn give_back(self) {
+        ENDS.set(self.emptied());
+    }
+
+    /// None, with the same room: the standard library collects a vector's own elements in place.
+    fn emptied<'b>(mut self) -> Ends<'b> {
+        self.inputs.clear();
+        self.outputs.clear();
+        let inputs = self.inputs.into_iter().map(|_| InputData::Uniform(0));
+        let outputs = self.outputs.into_iter().map(|_| OutputData::Dropped);
+        Ends {
+            inputs: inputs.collect(),
+            outputs: outputs.collect(),
+        }
+    }
 }
 
 /// A word of the immediates.

@@ -1,104 +1,16 @@
 //! Textures with samplers: a kernel's coordinates are in memory, and its colours go there.
 
 use estampe_ir::interpreter::{TextureAccess, TextureAccesses};
-use estampe_ir::op::{LevelOfDetail, TextureQuery};
+use estampe_ir::op::{LevelOfDetail, TextureOp, TextureQuery};
 use estampe_simd::{LANES, Packet, floats_of, floats_of_mut};
-use estampe_texture::{PacketLod, PacketRequest, SampledTexture, compare_packets};
+use estampe_texture::{PacketLod, PacketPlace, PacketRequest, SampledTexture, compare_packets};
 
 /// The most accesses that are done together.
 pub(super) const MOST: usize = 16;
 
-/// Samples, compares or gathers.
-pub(super) fn sample(texture: &SampledTexture, access: &mut TextureAccess<'_>) {
-    if !sample_common(texture, access) {
-        sample_any(texture, access);
-    }
-}
-
-/// One packet with two coordinates and nothing else, sampled by its quads, by gradients or in the
-/// finest level, or compared in a shadow map; false if that is not what is asked, and nothing is
-/// done.
-#[inline]
-fn sample_common(texture: &SampledTexture, access: &mut TextureAccess<'_>) -> bool {
-    let op = access.op;
-    let (&[mask], [_, _], None, [0, 0, 0]) =
-        (access.mask, &op.coordinates[..], op.layer, op.offset)
-    else {
-        return false;
-    };
-    let [u, v] = [0, 1].map(|at| floats_of(access.coordinate(at)).first());
-    let Some(uv) = u.zip(v).map(|(u, v)| [u, v]) else {
-        return false;
-    };
-    match (op.query, &op.level) {
-        (TextureQuery::Sample, LevelOfDetail::Implicit) if mask == whole_quads(mask) => {
-            sample_into(texture, &at(uv, PacketLod::Implicit), access)
-        }
-        (TextureQuery::Sample, LevelOfDetail::Zero) => {
-            let places = floats_of(access.operands()).as_chunks();
-            let colors = floats_of_mut(access.results_mut()).as_chunks_mut();
-            let ((each, []), (colors, [])) = (places, colors) else {
-                return false;
-            };
-            texture.sample_each(PacketLod::Level, each, colors);
-            true
-        }
-        (TextureQuery::Sample, LevelOfDetail::Gradient { .. }) => {
-            let asked = with_gradients(floats_of(access.operands()));
-            asked.is_some_and(|asked| sample_into(texture, &asked, access))
-        }
-        (TextureQuery::SampleCompare, _) => {
-            let reference = floats_of(access.reference().unwrap_or_default()).first();
-            let (Some(depths), Some(reference)) = (texture.depths(), reference) else {
-                return false;
-            };
-            let shares = floats_of_mut(access.results_mut());
-            compare_packets(depths, texture.level(), (&[uv], reference), shares);
-            true
-        }
-        _ => false,
-    }
-}
-
-/// Two coordinates, with a level of detail that takes no other operands.
-#[inline(always)]
-fn at<'a>([u, v]: [&'a Packet<f32>; 2], lod: PacketLod) -> PacketRequest<'a> {
-    PacketRequest {
-        at: [u, v, PacketRequest::ZEROS.at[2]],
-        lod,
-        ..PacketRequest::ZEROS
-    }
-}
-
-/// Two coordinates, with their derivatives along x, then along y.
-#[inline(always)]
-fn with_gradients(operands: &[Packet<f32>]) -> Option<PacketRequest<'_>> {
-    let [u, v, u_along_x, v_along_x, u_along_y, v_along_y] = operands else {
-        return None;
-    };
-    let zeros = PacketRequest::ZEROS.at[2];
-    Some(PacketRequest {
-        gradients: [u_along_x, v_along_x, zeros, u_along_y, v_along_y, zeros],
-        ..at([u, v], PacketLod::Gradients)
-    })
-}
-
-/// Samples one packet; false if the access has no room for a colour.
-#[inline]
-fn sample_into(
-    texture: &SampledTexture,
-    asked: &PacketRequest<'_>,
-    access: &mut TextureAccess<'_>,
-) -> bool {
-    let colors = floats_of_mut(access.results_mut()).first_chunk_mut();
-    colors
-        .map(|colors| texture.sample_request(asked, colors))
-        .is_some()
-}
-
 /// Samples, compares or gathers whatever is asked.
 #[inline(never)]
-fn sample_any(texture: &SampledTexture, access: &mut TextureAccess<'_>) {
+pub(super) fn sample(texture: &SampledTexture, access: &mut TextureAccess<'_>) {
     for packet in 0..access.packets {
         let asked = request(access, packet);
         let whole = whole_quads(access.mask[packet]);
@@ -135,36 +47,45 @@ fn sample_any(texture: &SampledTexture, access: &mut TextureAccess<'_>) {
     }
 }
 
-/// Samples several textures at the same coordinates, by whole quads or by gradients; false if that
-/// is not what the accesses ask for, and nothing is done.
-pub(super) fn sample_all(
-    textures: &[Option<&SampledTexture>],
+/// Samples one or several textures at the same coordinates, by whole quads or by gradients; false
+/// if that is not what the accesses ask for, and nothing is done.
+#[inline(always)]
+pub(super) fn sample_all<'a>(
     accesses: &mut TextureAccesses<'_>,
+    sampled: impl Fn(&TextureOp) -> Option<&'a SampledTexture>,
 ) -> bool {
-    let mask = accesses.mask();
-    let Some(&Some(first)) = textures.first() else {
+    let (ops, mask) = (accesses.ops, accesses.mask());
+    let (operands, results) = accesses.all();
+    let places = floats_of(operands);
+    let at = match places.len() {
+        2 if mask == whole_quads(mask) => places.first_chunk().map(PacketPlace::Quads),
+        6 => places.first_chunk().map(PacketPlace::Gradients),
+        _ => None,
+    };
+    let Some(at) = at else {
         return false;
     };
-    if textures.len() > MOST {
+    let (colors, []) = floats_of_mut(results).as_chunks_mut::<4>() else {
         return false;
+    };
+    if let ([op], [colors]) = (ops, &mut *colors) {
+        let Some(texture) = sampled(op) else {
+            return false;
+        };
+        texture.sample_flat(at, colors);
+        return true;
     }
+    let Some(first) = ops.first().and_then(&sampled).filter(|_| ops.len() <= MOST) else {
+        return false;
+    };
     let mut all = [first; MOST];
-    for (to, texture) in all.iter_mut().zip(textures) {
-        let Some(texture) = texture else {
+    for (to, op) in all.iter_mut().zip(ops) {
+        let Some(texture) = sampled(op) else {
             return false;
         };
         *to = texture;
     }
-    let (operands, results) = accesses.all();
-    let request = match floats_of(operands) {
-        [u, v] if mask == whole_quads(mask) => Some(at([u, v], PacketLod::Implicit)),
-        operands => with_gradients(operands),
-    };
-    let (Some(request), (colors, [])) = (request, floats_of_mut(results).as_chunks_mut::<4>())
-    else {
-        return false;
-    };
-    SampledTexture::sample_requests(&all[..textures.len()], &request, colors);
+    SampledTexture::sample_all_flat(&all[..ops.len()], at, colors);
     true
 }
 

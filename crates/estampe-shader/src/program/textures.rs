@@ -23,10 +23,36 @@ pub(super) struct BoundTextures<'a> {
     samplers: &'a [TextureSlot],
     /// For each texture and sampler, both together; made when it is first sampled. `None` inside
     /// where the sampler cannot sample the texture.
-    sampled: Vec<OnceCell<Option<Arc<SampledTexture>>>>,
+    sampled: Cells<Option<Arc<SampledTexture>>>,
     /// For each texture its view, found when texels are first loaded; `None` inside for a texture
     /// that shaders store to.
-    loaded: Vec<OnceCell<Option<&'a TexelView>>>,
+    loaded: Cells<Option<&'a TexelView>>,
+}
+
+/// Values that are found when they are first asked for. The first few take no allocation, as a
+/// shader is given new ones for each batch.
+#[derive(Debug)]
+struct Cells<T> {
+    few: [OnceCell<T>; FEW],
+    more: Vec<OnceCell<T>>,
+}
+
+/// The values that take no allocation.
+const FEW: usize = 6;
+
+impl<T: Clone> Cells<T> {
+    fn new(count: usize) -> Self {
+        Self {
+            few: [const { OnceCell::new() }; FEW],
+            more: vec![OnceCell::new(); count.saturating_sub(FEW)],
+        }
+    }
+
+    #[inline]
+    fn get(&self, at: usize) -> Option<&OnceCell<T>> {
+        let few = self.few.get(at);
+        few.or_else(|| self.more.get(at - FEW))
+    }
 }
 
 impl<'a> BoundTextures<'a> {
@@ -40,8 +66,8 @@ impl<'a> BoundTextures<'a> {
             bindings,
             textures,
             samplers,
-            sampled: vec![OnceCell::new(); pairs],
-            loaded: vec![OnceCell::new(); textures.len()],
+            sampled: Cells::new(pairs),
+            loaded: Cells::new(textures.len()),
         }
     }
 
@@ -74,6 +100,9 @@ impl<'a> BoundTextures<'a> {
 impl Textures for BoundTextures<'_> {
     fn access(&self, mut access: TextureAccess<'_>) {
         if let Some(sampler) = access.op.sampler {
+            if access.packets == 1 && self.alone(&mut access) {
+                return;
+            }
             match self.sampled(access.op.texture, sampler) {
                 Some(texture) => sample(texture, &mut access),
                 None => clear(&mut access),
@@ -100,22 +129,7 @@ impl Textures for BoundTextures<'_> {
     }
 
     fn access_all(&self, mut accesses: TextureAccesses<'_>) {
-        let sampled = |op: &TextureOp| self.sampled(op.texture, op.sampler.unwrap_or(u32::MAX));
-        let first = accesses.ops.first().and_then(sampled);
-        let is_done = match accesses.common {
-            Common::Coordinates => {
-                let mut textures = [first; MOST];
-                for (to, op) in textures.iter_mut().zip(accesses.ops).skip(1) {
-                    *to = sampled(op);
-                }
-                let textures = textures.get(..accesses.ops.len()).unwrap_or_default();
-                sample_all(textures, &mut accesses)
-            }
-            Common::Reference => compare_all(first, &mut accesses),
-            Common::Texture => sample_each(first, &mut accesses),
-            Common::Texels => self.load_all(&mut accesses),
-            Common::Nothing => false,
-        };
+        let is_done = self.together(&mut accesses);
         if !is_done {
             while let Some(access) = accesses.next() {
                 self.access(access);
@@ -132,6 +146,29 @@ fn clear(access: &mut TextureAccess<'_>) {
 }
 
 impl BoundTextures<'_> {
+    /// Does accesses that have something in common; false if they are not done, and nothing is
+    /// stored that counts.
+    #[inline(always)]
+    fn together(&self, accesses: &mut TextureAccesses<'_>) -> bool {
+        let sampled = |op: &TextureOp| self.sampled(op.texture, op.sampler.unwrap_or(u32::MAX));
+        let first = || accesses.ops.first().and_then(sampled);
+        match accesses.common {
+            Common::Coordinates => sample_all(accesses, sampled),
+            Common::Reference => compare_all(first(), accesses),
+            Common::Texture => sample_each(first(), accesses),
+            Common::Texels => self.load_all(accesses),
+            Common::Nothing => false,
+        }
+    }
+
+    /// Does an access of a single packet as accesses that have something in common are done; false
+    /// if it is not one of these.
+    fn alone(&self, access: &mut TextureAccess<'_>) -> bool {
+        access
+            .as_several()
+            .is_some_and(|mut accesses| self.together(&mut accesses))
+    }
+
     /// Loads or stores one packet of texels of the common kind; otherwise false is returned, and
     /// nothing done.
     #[inline]

@@ -43,6 +43,6 @@ mod sampled_texture;
 
 pub(crate) use coordinates::{Answers, answer, by_sixteen, load, packed, packet, packet_of_ints};
 pub use coordinates::{Coordinates, Lod, TextureCoordinates};
-pub use packet_request::{PacketLod, PacketRequest};
+pub use packet_request::{PacketLod, PacketPlace, PacketRequest};
 pub use plane::TexelView;
 pub use sampled_texture::SampledTexture;

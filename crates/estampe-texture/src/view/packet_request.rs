@@ -184,7 +184,52 @@ fn packet_of_layers<I: Int>(layer: I, first: usize) -> Packet<u32> {
     lanes
 }
 
-/// The most textures that [`SampledTexture::sample_requests`] samples together.
+/// Two coordinates of sixteen lanes, and where their level of detail comes from: a request that is
+/// one reference.
+#[derive(Debug, Clone, Copy)]
+pub enum PacketPlace<'a> {
+    /// Coordinates whose differences within quads count.
+    Quads(&'a [Packet<f32>; 2]),
+    /// Coordinates, then their derivatives along x, then along y.
+    Gradients(&'a [Packet<f32>; 6]),
+}
+
+impl<'a> PacketPlace<'a> {
+    /// The same as a request for the common kind of texture.
+    #[inline(always)]
+    fn common(self) -> Request<'a> {
+        match self {
+            Self::Quads([u, v]) => Request {
+                uv: [u, v],
+                detail: RequestDetail::Quads,
+            },
+            Self::Gradients([u, v, ux, vx, uy, vy]) => Request {
+                uv: [u, v],
+                detail: RequestDetail::Gradients([ux, vx, uy, vy]),
+            },
+        }
+    }
+
+    /// The same as a request.
+    #[inline(always)]
+    fn request(self) -> PacketRequest<'a> {
+        let zeros = &FLOATS;
+        match self {
+            Self::Quads([u, v]) => PacketRequest {
+                at: [u, v, zeros],
+                ..PacketRequest::ZEROS
+            },
+            Self::Gradients([u, v, ux, vx, uy, vy]) => PacketRequest {
+                at: [u, v, zeros],
+                lod: PacketLod::Gradients,
+                gradients: [ux, vx, zeros, uy, vy, zeros],
+                ..PacketRequest::ZEROS
+            },
+        }
+    }
+}
+
+/// The most textures that [`SampledTexture::sample_all_flat`] samples together.
 const TOGETHER: usize = 8;
 
 impl SampledTexture {
@@ -196,28 +241,34 @@ impl SampledTexture {
         }
     }
 
-    /// The colours of several textures at the same coordinates, as
-    /// [`sample_request`](Self::sample_request) gives them for each.
-    pub fn sample_requests(textures: &[&Self], request: &PacketRequest<'_>, colors: &mut [Colors]) {
-        let Some(first) = textures.first() else {
-            return;
-        };
-        if let Some((common, asked)) = first.common().zip(request.common())
+    /// The colours of sixteen lanes, as [`sample_request`](Self::sample_request) gives them.
+    #[inline]
+    pub fn sample_flat(&self, at: PacketPlace<'_>, colors: &mut Colors) {
+        match self.common() {
+            Some(common) => common.sample_packet(self.level, &at.common(), colors),
+            None => self.sample_lanes(&at.request(), colors),
+        }
+    }
+
+    /// The colours of several textures at the same place, as [`sample_flat`](Self::sample_flat)
+    /// gives them for each.
+    pub fn sample_all_flat(textures: &[&Self], at: PacketPlace<'_>, colors: &mut [Colors]) {
+        if let Some(first) = textures.first().and_then(|first| first.common())
             && textures.len() <= TOGETHER
         {
-            let mut all = [common; TOGETHER];
+            let mut all = [first; TOGETHER];
             let mut common = all
                 .iter_mut()
                 .zip(textures)
                 .map(|(to, texture)| texture.common().map(|common| *to = common));
             if common.all(|is_common| is_common.is_some()) {
                 let all = &all[..textures.len()];
-                Rgba8Texture::sample_all_packets(all, first.level, &asked, colors);
+                Rgba8Texture::sample_all_packets(all, textures[0].level, &at.common(), colors);
                 return;
             }
         }
         for (texture, colors) in textures.iter().zip(colors) {
-            texture.sample_request(request, colors);
+            texture.sample_flat(at, colors);
         }
     }
 

@@ -3,8 +3,8 @@
 use super::{Colors, Random, noise};
 use estampe_simd::{LANES, Lanes, Level, Packet, SimdBase, dispatch, f32x16};
 use estampe_texture::{
-    AddressMode, PacketLod, PacketRequest, SampledTexture, SamplerDescriptor, TexelView,
-    TextureFormat,
+    AddressMode, PacketLod, PacketPlace, PacketRequest, SampledTexture, SamplerDescriptor,
+    TexelView, TextureFormat,
 };
 use estampe_types::{Vec2, Vec4, WithGradient};
 
@@ -115,16 +115,9 @@ fn lanes_have_the_levels_of_their_own_derivatives() {
             }
             // As a compiled shader asks.
             let packets = varying.map(Packet);
-            let [u, v, ux, vx, uy, vy] = &packets;
-            let zeros = PacketRequest::ZEROS.at[2];
-            let request = PacketRequest {
-                at: [u, v, zeros],
-                lod: PacketLod::Gradients,
-                gradients: [ux, vx, zeros, uy, vy, zeros],
-                ..PacketRequest::ZEROS
-            };
             let mut together = [[Packet::default(); 4]; 2];
-            SampledTexture::sample_requests(&[first, second], &request, &mut together);
+            let at = PacketPlace::Gradients(&packets);
+            SampledTexture::sample_all_flat(&[first, second], at, &mut together);
             for (colors, texture) in together.iter().zip([first, second]) {
                 for lane in 0..LANES {
                     let got = colors.map(|channel| channel.0[lane].to_bits());

@@ -3,8 +3,8 @@
 use super::{Random, noise};
 use estampe_simd::{LANE_X, LANE_Y, LANES, Level, Packet};
 use estampe_texture::{
-    AddressMode, FilterMode, Limits, MipGeneration, PacketLod, PacketRequest, SampledTexture,
-    SamplerDescriptor, ShadowMap, TexelDescriptor, TexelView, TexelViewDescriptor,
+    AddressMode, FilterMode, Limits, MipGeneration, PacketLod, PacketPlace, PacketRequest,
+    SampledTexture, SamplerDescriptor, ShadowMap, TexelDescriptor, TexelView, TexelViewDescriptor,
     TextureDimension, TextureFormat, ViewDimension, compare_packets,
 };
 
@@ -52,19 +52,19 @@ fn textures_at_the_same_coordinates_are_sampled_as_alone() {
         let textures = textures.clone().map(|texture| texture.at_level(level));
         for _ in 0..60 {
             let step = random.unit() * random.unit() * 0.1;
-            let [u, v] = packets([random.unit() * 1.2 - 0.1, random.unit()], step);
+            let uv = packets([random.unit() * 1.2 - 0.1, random.unit()], step);
             let request = PacketRequest {
-                at: [&u, &v, PacketRequest::ZEROS.at[2]],
+                at: [&uv[0], &uv[1], PacketRequest::ZEROS.at[2]],
                 ..PacketRequest::ZEROS
             };
             for count in 1..=textures.len() {
                 let all: Vec<&SampledTexture> = textures[..count].iter().collect();
                 let mut together = vec![Colors::default(); count];
-                SampledTexture::sample_requests(&all, &request, &mut together);
+                SampledTexture::sample_all_flat(&all, PacketPlace::Quads(&uv), &mut together);
                 for (texture, together) in all.iter().zip(&together) {
                     let mut alone = Colors::default();
                     texture.sample_request(&request, &mut alone);
-                    assert_eq!(bits(together), bits(&alone), "{level:?} {u:?} {v:?}");
+                    assert_eq!(bits(together), bits(&alone), "{level:?} {uv:?}");
                 }
             }
         }

@@ -87,7 +87,11 @@ impl Kind {
                 memory: *memory,
             },
             Op::CompareExchange { memory, .. } => Self::CompareExchange { memory: *memory },
-            Op::Texture(op) => Self::Textures(vec![TextureOp::clone(op)], Common::Nothing),
+            Op::Texture(op) => {
+                let ops = vec![TextureOp::clone(op)];
+                let common = Common::of(&ops);
+                Self::Textures(ops, common)
+            }
             _ => return None,
         })
     }
@@ -195,10 +199,7 @@ impl Selector<'_> {
                 textures.push(TextureOp::clone(op));
             }
         }
-        let common = match textures.len() {
-            1 => Common::Nothing,
-            _ => Common::of(&textures),
-        };
+        let common = Common::of(&textures);
         if common.shares_operands() {
             // All have the operands of the first.
             operands = textures.first().map_or(0, TextureOp::words);
