@@ -24,9 +24,10 @@
 //!   or a cube's edge, or with an offset).
 //!
 //! Gathers (`gather.rs`) are lane by lane as well; so are fetches (`fetch.rs`) that their packet
-//! code (`packet_fetch.rs`) cannot do.
+//! code (`packet_fetch.rs`, and `blocks.rs` for rows of neighbours) cannot do.
 
 mod axis;
+mod blocks;
 mod compare;
 mod coordinates;
 mod cube;

@@ -2,6 +2,7 @@
 //! format that [`PacketFormat`] decodes, in every dimension, if all lanes read the same mip level
 //! of a texture with one sample.
 
+use super::blocks::rows_of_halves;
 use super::coordinates::{Answers, packet};
 use super::packet_texel::{OTHERS, PacketFormat, RGBA8, RGBA8_SRGB, RGBA16F};
 use super::plane::{Plane, TexelView};
@@ -48,110 +49,12 @@ impl TexelView {
     }
 }
 
-impl TexelView {
-    /// Fetches the texels of several textures at the same places (x, y) of a level. `false` unless
-    /// all are two-dimensional ones of half floats, of one size, and the texels a block inside the
-    /// level; what is stored then means nothing.
-    pub fn fetch_blocks(
-        views: &[&Self],
-        level: Level,
-        [x, y, mips]: [&Packet<i32>; 3],
-        texels: &mut [Answers],
-    ) -> bool {
-        let Some((first, others)) = views.split_first() else {
-            return false;
-        };
-        let plane = |view: &Self| {
-            let plane = view.planes.get(usize::try_from(mips.0[0]).ok()?)?;
-            let is_common = view.packets.is_some_and(|format| format.kind() == RGBA16F)
-                && view.dimension == ViewDimension::D2
-                && view.texture.shape.samples == 1;
-            is_common.then_some(*plane)
-        };
-        let Some(Plane { sides, .. }) = plane(first).filter(|_| mips.is_uniform()) else {
-            return false;
-        };
-        let is_like = |other: &&Self| plane(other).is_some_and(|plane| plane.sides == sides);
-        if !others.iter().all(is_like) {
-            return false;
-        }
-        dispatch!(@specialized_move level, s => {
-            let Some(texel) = first_of_block(s, [x, y], sides) else {
-                return false;
-            };
-            for (view, texels) in views.iter().zip(texels) {
-                let Some([r, g, b, a]) = view.block_at(s, mips.0[0], texel) else {
-                    return false;
-                };
-                *texels = [packet(r, 0), packet(g, 0), packet(b, 0), packet(a, 0)];
-            }
-            true
-        }, others => false)
-    }
-
-    /// The channels of a block of half floats whose first texel has this number in the level's
-    /// first image of the view.
-    #[inline(always)]
-    fn block_at<S: SimdLanes>(&self, s: S, mip: i32, texel: i32) -> Option<[f32x16<S>; 4]> {
-        let plane = self.planes.get(usize::try_from(mip).ok()?)?;
-        let [width, height, _] = plane.sides;
-        let slice = self.base_layer.cast_signed().wrapping_mul(height);
-        let texel = slice.wrapping_mul(width).wrapping_add(texel);
-        let first = texel.wrapping_mul(2).wrapping_add(plane.begin_words(2));
-        let row = 2 * width.cast_unsigned();
-        rows_of_halves(s, &self.texture.texels[..], [first.cast_unsigned(), row])
-    }
-}
-
-/// The number of the first texel, if the texels at these places are a block inside an image.
-#[inline(always)]
-fn first_of_block<S: SimdLanes>(
-    s: S,
-    [x, y]: [&Packet<i32>; 2],
-    [width, height, _]: [i32; 3],
-) -> Option<i32> {
-    let (left, top) = (x.0[0], y.0[0]);
-    let columns: i32x16<S> = u32x16::load_array(s, COLUMNS).bitcast();
-    let rows: i32x16<S> = u32x16::load_array(s, ROWS).bitcast();
-    let columns = columns + <i32x16<S> as SimdBase<S>>::splat(s, left);
-    let rows = rows + <i32x16<S> as SimdBase<S>>::splat(s, top);
-    let is_column = i32x16::load_array_ref(s, &x.0).simd_eq(columns);
-    let is_row = i32x16::load_array_ref(s, &y.0).simd_eq(rows);
-    let is_block: mask32x16<S> = is_column & is_row;
-    let is_inside = left >= 0 && top >= 0 && left <= width - SIDE && top <= height - SIDE;
-    (is_inside && s.bits_of_mask(is_block) == u16::MAX).then(|| top * width + left)
-}
-
-/// The channels of a block of half floats, from its first word and the words of a row of the image;
-/// `None` if they are not in memory, or if the level has no instruction for halves.
-#[inline(always)]
-fn rows_of_halves<S: SimdLanes>(
-    s: S,
-    texels: &[u32],
-    [first, row]: [u32; 2],
-) -> Option<[f32x16<S>; 4]> {
-    let mut rows = [<f32x16<S> as SimdBase<S>>::splat(s, 0.0); 4];
-    let mut texels = texels.get(first as usize..)?;
-    for (at, to) in rows.iter_mut().enumerate() {
-        if at > 0 {
-            texels = texels.get(row as usize..)?;
-        }
-        *to = s.row_of_halves(texels.first_chunk()?)?;
-    }
-    Some(s.channels_of_rows(rows))
-}
-
-/// The columns and rows of a block.
-const SIDE: i32 = 4;
-
-/// The columns of a block's lanes.
-const COLUMNS: [u32; LANES] = times(LANE_X, 1);
 /// The rows of a block's lanes.
 const ROWS: [u32; LANES] = times(LANE_Y, 1);
 /// The words before a block's lanes in a row of texels of two words.
 const COLUMN_WORDS: [u32; LANES] = times(LANE_X, 2);
 
-const fn times(of: [u8; LANES], factor: u32) -> [u32; LANES] {
+pub(super) const fn times(of: [u8; LANES], factor: u32) -> [u32; LANES] {
     let mut products = [0; LANES];
     let mut lane = 0;
     while lane < LANES {

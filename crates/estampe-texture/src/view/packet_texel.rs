@@ -17,6 +17,9 @@ pub(super) const RGBA16F: u8 = 3;
 /// One unorm byte.
 pub(super) const R8: u8 = 4;
 
+/// One float, or one depth that is a float.
+pub(super) const FLOAT: u8 = 5;
+
 /// A format that packet code decodes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct PacketFormat {
@@ -56,6 +59,15 @@ impl PacketFormat {
         matches!(self.kind(), RGBA8 | RGBA8_SRGB | R8)
     }
 
+    /// Returns true if texels are one float: [`FLOAT`].
+    pub(super) fn is_one_float(self) -> bool {
+        let is_float = matches!(
+            self.encoding,
+            TexelEncoding::Float32 | TexelEncoding::Depth32
+        );
+        is_float && self.components == 1 && self.words == 1
+    }
+
     /// Returns true if the format is a fixed-point depth.
     pub(super) fn is_fixed_depth(self) -> bool {
         matches!(
@@ -89,6 +101,7 @@ impl PacketFormat {
                     *unit = half::decode_lanes(s, words[k / 2 % 4] >> [0, 16][k % 2]);
                 }
             }
+            FLOAT => units[0] = words[0].bitcast(),
             _ => self.units_of_others(s, words, units),
         }
     }

@@ -104,7 +104,19 @@ fn blocks_of_several_textures_are_those_of_each() {
     let mut random = Random::new(35);
     let mut of = |format| view_of(format, ViewDimension::D2, &mut random).expect("a 2D format");
     let halves = [(); 3].map(|()| of(TextureFormat::Rgba16Float));
-    let bytes = of(TextureFormat::Rgba8Unorm);
+    let several = [
+        TextureFormat::Rgba8UnormSrgb,
+        TextureFormat::Rgba16Float,
+        TextureFormat::Depth32Float,
+    ];
+    let several = several.map(&mut of);
+    let words = [
+        TextureFormat::R32Float,
+        TextureFormat::Bgra8Unorm,
+        TextureFormat::Rgba8Unorm,
+    ];
+    let words = words.map(&mut of);
+    let other = of(TextureFormat::Rgb10a2Unorm);
     for level in Level::all_available() {
         let has_halves = matches!(level.name(), "avx2" | "avx512");
         // Level 0 has 8×8 texels.
@@ -125,22 +137,24 @@ fn blocks_of_several_textures_are_those_of_each() {
                 Packet(lanes.map(|at| first.wrapping_add(i32::from(at))))
             };
             let places = [block(LANE_X, x), block(LANE_Y, y), Packet([mip; LANES])];
-            let mut texels = [[Packet([7.0; LANES]); 4]; 3];
-            let mut fetch = |views: [&TexelView; 3], places: [&Packet<i32>; 3]| {
-                TexelView::fetch_blocks(&views, level, places, &mut texels)
-            };
-            let mut tilted = places;
-            tilted[1].0[9] ^= 1;
-            assert!(!fetch(halves.each_ref(), tilted.each_ref()));
-            assert!(!fetch([&halves[0], &bytes, &halves[2]], places.each_ref()));
-            let done = fetch(halves.each_ref(), places.each_ref());
-            assert_eq!(done, has_halves && is_inside, "{level:?} {x} {y} {mip}");
-            for (view, texels) in halves.iter().zip(&texels).filter(|_| done) {
-                for lane in 0..LANES {
-                    let [x, y, mip] = places.each_ref().map(|place| place.0[lane]);
-                    let expected = crate::array(view.fetch([x, y, 0], mip, 0));
-                    let got = texels.each_ref().map(|channel| channel.0[lane].to_bits());
-                    assert_eq!(got, expected.map(f32::to_bits), "{level:?} ({x}, {y})");
+            for views in [&halves, &several, &words] {
+                let mut texels = [[Packet([7.0; LANES]); 4]; 3];
+                let mut fetch = |views: [&TexelView; 3], places: [&Packet<i32>; 3]| {
+                    TexelView::fetch_blocks(&views, level, places, &mut texels)
+                };
+                let mut tilted = places;
+                tilted[1].0[9] ^= 1;
+                assert!(!fetch(views.each_ref(), tilted.each_ref()));
+                assert!(!fetch([&views[0], &other, &views[2]], places.each_ref()));
+                let done = fetch(views.each_ref(), places.each_ref());
+                assert_eq!(done, has_halves && is_inside, "{level:?} {x} {y} {mip}");
+                for (view, texels) in views.iter().zip(&texels).filter(|_| done) {
+                    for lane in 0..LANES {
+                        let [x, y, mip] = places.each_ref().map(|place| place.0[lane]);
+                        let expected = crate::array(view.fetch([x, y, 0], mip, 0));
+                        let got = texels.each_ref().map(|channel| channel.0[lane].to_bits());
+                        assert_eq!(got, expected.map(f32::to_bits), "{level:?} ({x}, {y})");
+                    }
                 }
             }
         }

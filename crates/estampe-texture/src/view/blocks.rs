@@ -1,0 +1,198 @@
+//! Fetches of texels that are a block of 4×4, as a pass over a whole picture loads them: rows of
+//! neighbours in memory, of one texture or of several at the same place.
+
+use super::coordinates::{Answers, packet};
+use super::packet_fetch::times;
+use super::packet_texel::{FLOAT, RGBA8, RGBA8_SRGB, RGBA16F};
+use super::plane::{Plane, TexelView};
+use estampe_simd::{
+    Bytes, LANE_X, LANE_Y, LANES, Lanes as SimdLanes, Level, Packet, SimdBase, dispatch, f32x16,
+    i32x16, mask32x16, prefetch, u32x4, u32x16,
+};
+use estampe_types::ViewDimension;
+
+impl TexelView {
+    /// Fetches the texels of several textures at the same places (x, y) of a level. `false` unless
+    /// all are two-dimensional ones of one size, of half floats, of four unorm bytes or of one
+    /// float, and the texels a block inside the level; what is stored then means nothing.
+    pub fn fetch_blocks(
+        views: &[&Self],
+        level: Level,
+        [x, y, mips]: [&Packet<i32>; 3],
+        texels: &mut [Answers],
+    ) -> bool {
+        let Some((first, others)) = views.split_first() else {
+            return false;
+        };
+        let sides = |view: &Self| {
+            let plane = view.planes.get(usize::try_from(mips.0[0]).ok()?)?;
+            view.has_blocks().then_some(plane.sides)
+        };
+        let Some(of_first) = sides(first).filter(|_| mips.is_uniform()) else {
+            return false;
+        };
+        if !others.iter().all(|other| sides(other) == Some(of_first)) {
+            return false;
+        }
+        dispatch!(@specialized_move level, s => {
+            let Some(at) = first_of_block(s, [x, y], of_first) else {
+                return false;
+            };
+            for (view, texels) in views.iter().zip(texels) {
+                let plane = &view.planes[mips.0[0].cast_unsigned() as usize];
+                let Some([r, g, b, a]) = view.block_at(s, plane, at) else {
+                    return false;
+                };
+                view.prefetch_blocks(plane, [x.0[0], y.0[0]]);
+                *texels = [packet(r, 0), packet(g, 0), packet(b, 0), packet(a, 0)];
+            }
+            true
+        }, others => false)
+    }
+
+    /// True if blocks of the view's texels can be fetched.
+    #[inline(always)]
+    fn has_blocks(&self) -> bool {
+        self.dimension == ViewDimension::D2
+            && self.texture.shape.samples == 1
+            && self.packets.is_some_and(|format| {
+                format.is_one_float() || matches!(format.kind(), RGBA8 | RGBA8_SRGB | RGBA16F)
+            })
+    }
+
+    /// Prefetches blocks that come after the one at a place in the order in which tiles are shaded,
+    /// Morton order: the one below, and from the lower row of a square of blocks the next square.
+    /// Those pass after pass reads are in no cache near the processor, as images are large, and
+    /// rows of one are too short for the processor to foresee.
+    #[inline(always)]
+    fn prefetch_blocks(&self, plane: &Plane, [x, y]: [i32; 2]) {
+        let words = self.packets.map_or(1, |format| format.words);
+        let row = words * plane.sides[0];
+        let slice = self.base_layer.cast_signed().wrapping_mul(plane.sides[1]);
+        let first = slice.wrapping_add(y).wrapping_mul(row);
+        let first = first.wrapping_add(x * words + plane.begin_words(words));
+        let is_right = x & SIDE != 0;
+        if is_right {
+            return;
+        }
+        for line in SIDE..2 * SIDE {
+            let at = first.wrapping_add(line * row);
+            prefetch(&self.texture.texels[..], at.cast_unsigned() as usize);
+        }
+        if y & SIDE != 0 {
+            for line in -SIDE..0 {
+                let at = first.wrapping_add(line * row + 2 * SIDE * words);
+                prefetch(&self.texture.texels[..], at.cast_unsigned() as usize);
+            }
+        }
+    }
+
+    /// The channels of a block whose first texel has this number in the level's first image of the
+    /// view, which [has blocks](Self::has_blocks); `None` if they are not in memory, or if the
+    /// level has no instruction for half floats.
+    #[inline(always)]
+    fn block_at<S: SimdLanes>(&self, s: S, plane: &Plane, texel: i32) -> Option<[f32x16<S>; 4]> {
+        let format = self.packets?;
+        let [width, height, _] = plane.sides;
+        let slice = self.base_layer.cast_signed().wrapping_mul(height);
+        let texel = slice.wrapping_mul(width).wrapping_add(texel);
+        let first = texel.wrapping_mul(format.words);
+        let first = first.wrapping_add(plane.begin_words(format.words));
+        let row = (format.words * width).cast_unsigned();
+        let place = [first.cast_unsigned(), row];
+        let texels = &self.texture.texels[..];
+        if format.kind() == RGBA16F {
+            return rows_of_halves(s, texels, place);
+        }
+        let zero = <f32x16<S> as SimdBase<S>>::splat(s, 0.0);
+        let none = <u32x16<S> as SimdBase<S>>::splat(s, 0);
+        let words = [rows_of_words(s, texels, place)?, none, none, none];
+        let scale = self.codec.scale();
+        if format.is_one_float() {
+            let mut units = [zero; 1];
+            format.units::<S, 1, FLOAT>(s, &words, &mut units);
+            return Some([units[0] * scale[0], zero, zero, zero + 1.0]);
+        }
+        let mut units = [zero; 4];
+        if format.kind() == RGBA8_SRGB {
+            format.units::<S, 4, RGBA8_SRGB>(s, &words, &mut units);
+        } else {
+            format.units::<S, 4, RGBA8>(s, &words, &mut units);
+        }
+        let [r, g, b, a] = units;
+        Some([r * scale[0], g * scale[1], b * scale[2], a * scale[3]])
+    }
+}
+
+/// The number of the first texel, if the texels at these places are a block inside an image.
+#[inline(always)]
+fn first_of_block<S: SimdLanes>(
+    s: S,
+    [x, y]: [&Packet<i32>; 2],
+    [width, height, _]: [i32; 3],
+) -> Option<i32> {
+    let (left, top) = (x.0[0], y.0[0]);
+    let columns: i32x16<S> = u32x16::load_array(s, COLUMNS).bitcast();
+    let rows: i32x16<S> = u32x16::load_array(s, ROWS).bitcast();
+    let columns = columns + <i32x16<S> as SimdBase<S>>::splat(s, left);
+    let rows = rows + <i32x16<S> as SimdBase<S>>::splat(s, top);
+    let is_column = i32x16::load_array_ref(s, &x.0).simd_eq(columns);
+    let is_row = i32x16::load_array_ref(s, &y.0).simd_eq(rows);
+    let is_block: mask32x16<S> = is_column & is_row;
+    let is_inside = left >= 0 && top >= 0 && left <= width - SIDE && top <= height - SIDE;
+    (is_inside && s.bits_of_mask(is_block) == u16::MAX).then(|| top * width + left)
+}
+
+/// The words of a block of texels of one word, from its first word and the words of a row of the
+/// image; `None` if they are not in memory.
+#[inline(always)]
+fn rows_of_words<S: SimdLanes>(s: S, texels: &[u32], [first, row]: [u32; 2]) -> Option<u32x16<S>> {
+    let mut rows = [<u32x4<S> as SimdBase<S>>::splat(s, 0); 4];
+    let mut texels = texels.get(first as usize..)?;
+    for (at, to) in rows.iter_mut().enumerate() {
+        if at > 0 {
+            texels = texels.get(row as usize..)?;
+        }
+        *to = u32x4::load_array_ref(s, texels.first_chunk()?);
+    }
+    let [a, b, c, d] = rows;
+    let rows = s.combine_u32x8(s.combine_u32x4(a, b), s.combine_u32x4(c, d));
+    Some(s.permute(rows, u32x16::load_array(s, PLACES)))
+}
+
+/// The channels of a block of half floats, from its first word and the words of a row of the image;
+/// `None` if they are not in memory, or if the level has no instruction for halves.
+#[inline(always)]
+pub(super) fn rows_of_halves<S: SimdLanes>(
+    s: S,
+    texels: &[u32],
+    [first, row]: [u32; 2],
+) -> Option<[f32x16<S>; 4]> {
+    let mut rows = [<f32x16<S> as SimdBase<S>>::splat(s, 0.0); 4];
+    let mut texels = texels.get(first as usize..)?;
+    for (at, to) in rows.iter_mut().enumerate() {
+        if at > 0 {
+            texels = texels.get(row as usize..)?;
+        }
+        *to = s.row_of_halves(texels.first_chunk()?)?;
+    }
+    Some(s.channels_of_rows(rows))
+}
+
+/// The columns and rows of a block.
+const SIDE: i32 = 4;
+
+/// The columns of a block's lanes.
+const COLUMNS: [u32; LANES] = times(LANE_X, 1);
+/// The rows of a block's lanes.
+const ROWS: [u32; LANES] = times(LANE_Y, 1);
+/// Where a block's lanes are among its rows.
+const PLACES: [u32; LANES] = {
+    let mut places = times(LANE_Y, 4);
+    let mut lane = 0;
+    while lane < LANES {
+        places[lane] += COLUMNS[lane];
+        lane += 1;
+    }
+    places
+};
