@@ -285,6 +285,60 @@ fn a_texture_at_several_places_is_sampled_as_at_each() {
     }
 }
 
+/// Filters whose taps stand in columns: at each scale, in every address mode, inside and at borders.
+#[test]
+fn taps_of_the_same_columns_are_sampled_as_each_alone() {
+    let random = &mut Random::new(39);
+    let [mut sharing, mut all] = [0; 2];
+    let modes = [
+        AddressMode::ClampToEdge,
+        AddressMode::Repeat,
+        AddressMode::MirrorRepeat,
+    ];
+    for address_mode in modes {
+        let sampler = SamplerDescriptor {
+            address_mode_u: address_mode,
+            address_mode_v: address_mode,
+            ..SamplerDescriptor::trilinear_repeat()
+        };
+        let texture = textured(TextureFormat::Rgba16Float, sampler);
+        for level in Level::all_available() {
+            let texture = texture.clone().at_level(level);
+            let has_blocks = matches!(level.name(), "avx2" | "avx512");
+            for (scale, round) in (0..400).map(|at| ([2.0, 0.5, 1.0, -1.0, 3.0][at % 5], at / 5)) {
+                let scale = scale / 64.0;
+                let [u, v] = [random.unit() * 1.2 - 0.1, random.unit() * 1.2 - 0.1];
+                // The third column differs in a lane that is not in the first row.
+                let places: Vec<[Packet<f32>; 2]> = (0..13)
+                    .map(|tap| {
+                        let [column, row] = [tap % 3, tap / 3].map(|at| at as f32 / 64.0);
+                        let mut place = packets([u + column * 1.3, v + row * 0.9], scale);
+                        place[0].0[9] += if tap % 3 == 2 && tap > 6 { 0.01 } else { 0.0 };
+                        place
+                    })
+                    .collect();
+                let found = texture.sharing_taps(&places);
+                assert!(has_blocks || found == 0, "{level:?}");
+                sharing += found;
+                all += 13;
+                let mut together = vec![Colors::default(); places.len()];
+                texture.sample_each(PacketLod::Level, &places, &mut together);
+                for ([u, v], together) in places.iter().zip(&together) {
+                    let request = PacketRequest {
+                        at: [u, v, PacketRequest::ZEROS.at[2]],
+                        lod: PacketLod::Level,
+                        ..PacketRequest::ZEROS
+                    };
+                    let mut alone = Colors::default();
+                    texture.sample_request(&request, &mut alone);
+                    assert_eq!(bits(together), bits(&alone), "{level:?} {scale} {round}");
+                }
+            }
+        }
+    }
+    assert!(sharing > 1000 && sharing < all, "{sharing} of {all}");
+}
+
 /// Whether a number is NaN counts, not its bits: the order of operands decides which NaN results.
 fn numbers(colors: &[Packet<f32>]) -> Vec<[u32; LANES]> {
     let number = |value: f32| match value.is_nan() {

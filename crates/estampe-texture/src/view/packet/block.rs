@@ -11,71 +11,35 @@
 //! and the right ones too: each is a load that converts, without a permutation.
 
 use super::Packet;
-use crate::view::coordinates::{Answers, load, packet};
-use crate::view::packet_texel::RGBA16F;
+use crate::view::coordinates::load;
 use crate::view::plane::Plane;
 use crate::view::{PacketLod, PacketRequest, SampledTexture};
-use crate::wrap::{place_by_lane, wrap};
+use crate::wrap::{Place, place_by_lane, wrap};
 use estampe_simd::{
-    Bytes, Columns, Lanes as SimdLanes, Packet as Values, SimdBase, dispatch, f32x16, i32x16,
-    mask32x16, u32x16,
+    Bytes, Columns, Lanes as SimdLanes, SimdBase, dispatch, f32x16, i32x16, mask32x16, u32x16,
 };
 use estampe_types::{AddressMode, Real, ViewDimension};
 
 /// The words of a texel.
-const WORDS: usize = 2;
+pub(super) const WORDS: usize = 2;
 
 /// The most rows of texels of a block.
 const MOST_LINES: usize = 9;
 
 /// The words of a row of five texels.
-const NEIGHBOURS: usize = 5 * WORDS;
+pub(super) const NEIGHBOURS: usize = 5 * WORDS;
 
 /// The lanes that hold the places of columns, then of rows.
 const PLACES: u16 = 0xFF;
 
-/// The most taps that are sampled together.
-pub(in crate::view) const MOST_TAPS: usize = 32;
-
 impl SampledTexture {
-    /// Samples the finest level at several places (u, v), as far as they are blocks; returns the
-    /// others, of which nothing is stored: bit `i` is place `i`.
-    pub(crate) fn sample_blocks(
-        &self,
-        lod: PacketLod,
-        at: &[[Values<f32>; 2]],
-        colors: &mut [Answers],
-    ) -> u32 {
-        let all = u32::MAX >> (32 - at.len().clamp(1, MOST_TAPS));
-        let is_finest = self.ignores_lod
-            || lod == PacketLod::Level
-                && self.sampler.lod_bias == 0.0
-                && self.sampler.lod_min_clamp <= 0.0;
-        let has_blocks = self.packets.is_some_and(|format| format.kind() == RGBA16F);
-        if !(is_finest && has_blocks && self.is_simple) || at.is_empty() || at.len() > MOST_TAPS {
-            return all;
-        }
-        dispatch!(@specialized_move self.level, s => {
-            let Some(level) = BlockLevel::new(s, self, &self.view.planes[0]) else {
-                return all;
-            };
-            // Clamping is most common, and needs few of the constants that wrapping does.
-            if level.mode == AddressMode::ClampToEdge {
-                level.sample_each::<true>(s, at, colors)
-            } else {
-                level.sample_each::<false>(s, at, colors)
-            }
-        }, others => all)
-    }
-
     /// Returns true if the finest level is sampled as a block; tests see by it which way a request
     /// of the common case takes.
     #[doc(hidden)]
     #[must_use]
     pub fn samples_a_block(&self, request: &PacketRequest<'_>) -> bool {
         let at = [[*request.at[0], *request.at[1]]];
-        let mut colors = [Answers::default()];
-        self.sample_blocks(PacketLod::Level, &at, &mut colors) == 0
+        self.sample_blocks(PacketLod::Level, &at, &mut [Default::default()]) == 0
     }
 
     /// Returns true if the texels of a block are neighbours in the finest level.
@@ -122,13 +86,13 @@ impl Packet<'_> {
 }
 
 /// A level of a 2D view whose texels are four half floats, as blocks read it.
-struct BlockLevel<'a, S: SimdLanes> {
-    texels: &'a [u32],
+pub(super) struct BlockLevel<'a, S: SimdLanes> {
+    pub(super) texels: &'a [u32],
     /// The image's first word.
-    begin: usize,
+    pub(super) begin: usize,
     /// The words of a row.
-    row_words: usize,
-    mode: AddressMode,
+    pub(super) row_words: usize,
+    pub(super) mode: AddressMode,
     /// The numbers of columns, then of rows, in the order of
     /// [`columns_and_rows`](SimdLanes::columns_and_rows).
     lengths: f32x16<S>,
@@ -139,7 +103,7 @@ struct BlockLevel<'a, S: SimdLanes> {
 impl<'a, S: SimdLanes> BlockLevel<'a, S> {
     /// Prepares a level; `None` if the view is not a 2D one, or its axes are wrapped differently.
     #[inline(always)]
-    fn new(s: S, of: &'a SampledTexture, plane: &Plane) -> Option<Self> {
+    pub(super) fn new(s: S, of: &'a SampledTexture, plane: &Plane) -> Option<Self> {
         let mode = of.sampler.address_mode_u;
         if of.view.dimension != ViewDimension::D2 || of.sampler.address_mode_v != mode {
             return None;
@@ -161,35 +125,14 @@ impl<'a, S: SimdLanes> BlockLevel<'a, S> {
         })
     }
 
-    /// Samples at several places (u, v), as far as they are blocks; returns the others, of which
-    /// nothing is stored. `CLAMPS` says that the mode is to clamp.
-    #[inline(always)]
-    fn sample_each<const CLAMPS: bool>(
-        &self,
-        s: S,
-        at: &[[Values<f32>; 2]],
-        colors: &mut [Answers],
-    ) -> u32 {
-        let mut others = 0;
-        for (bit, ([u, v], colors)) in at.iter().zip(colors).enumerate() {
-            let uv = [
-                f32x16::load_array_ref(s, &u.0),
-                f32x16::load_array_ref(s, &v.0),
-            ];
-            match self.sample::<CLAMPS>(s, uv) {
-                Some([r, g, b, a]) => {
-                    *colors = [packet(r, 0), packet(g, 0), packet(b, 0), packet(a, 0)];
-                }
-                None => others |= 1 << bit,
-            }
-        }
-        others
-    }
-
     /// The colour of each lane at (u, v), unwrapped; `None` if the samples do not stand in columns
     /// and rows, a texel is across a border, or texels are far apart.
     #[inline(always)]
-    fn sample<const CLAMPS: bool>(&self, s: S, uv: [f32x16<S>; 2]) -> Option<[f32x16<S>; 4]> {
+    pub(super) fn sample<const CLAMPS: bool>(
+        &self,
+        s: S,
+        uv: [f32x16<S>; 2],
+    ) -> Option<[f32x16<S>; 4]> {
         let footprint = self.footprint::<CLAMPS>(s, uv)?;
         let filtered = if footprint.are_neighbours {
             self.neighbours(s, &footprint)?
@@ -203,30 +146,39 @@ impl<'a, S: SimdLanes> BlockLevel<'a, S> {
     /// texel is across a border.
     #[inline(always)]
     fn footprint<const CLAMPS: bool>(&self, s: S, [u, v]: [f32x16<S>; 2]) -> Option<Footprint<S>> {
+        let is_block = u.eq(s.first_row(u)) & v.eq(s.first_column(v));
+        if s.bits_of_mask(is_block) != u16::MAX {
+            return None;
+        }
+        let Place { texel, fraction } = self.place::<CLAMPS>(s, [u, v])?;
+        Some(Footprint {
+            texel,
+            are_neighbours: are_neighbours(s, texel.bitcast()),
+            across: s.spread_columns(fraction),
+            down: s.spread_rows(fraction),
+        })
+    }
+
+    /// The texels of columns and rows, and the positions after their centres, of samples at (u, v)
+    /// that stand so; `None` if a texel is across a border.
+    #[inline(always)]
+    pub(super) fn place<const CLAMPS: bool>(
+        &self,
+        s: S,
+        [u, v]: [f32x16<S>; 2],
+    ) -> Option<Place<f32x16<S>>> {
         let mode = if CLAMPS {
             AddressMode::ClampToEdge
         } else {
             self.mode
         };
-        let is_block = u.eq(s.first_row(u)) & v.eq(s.first_column(v));
-        if s.bits_of_mask(is_block) != u16::MAX {
-            return None;
-        }
         let wrapped = wrap(s.columns_and_rows(u, v), mode);
         let place = place_by_lane(wrapped, self.lengths, self.last, mode);
         let texel: i32x16<S> = place.texel;
         let last: i32x16<S> = self.last.to_int_within_range();
         let [at, end]: [u32x16<S>; 2] = [texel.bitcast(), last.bitcast()];
         let has_next: mask32x16<S> = at.simd_lt(end);
-        if s.bits_of_mask(has_next) & PLACES != PLACES {
-            return None;
-        }
-        Some(Footprint {
-            texel,
-            are_neighbours: are_neighbours(s, at),
-            across: s.spread_columns(place.fraction),
-            down: s.spread_rows(place.fraction),
-        })
+        (s.bits_of_mask(has_next) & PLACES == PLACES).then_some(place)
     }
 
     /// The four rows of texels of a block whose texels are neighbours, in five rows of five; `None`

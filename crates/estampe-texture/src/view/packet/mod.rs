@@ -18,10 +18,11 @@ mod face;
 mod footprint;
 mod inside;
 mod places;
+mod taps;
 
 pub(crate) use super::packet_texel::PacketFormat;
-pub(super) use block::MOST_TAPS;
 pub(crate) use each_level::LevelTable;
+pub(super) use taps::MOST_TAPS;
 
 use super::coordinates::{Answers, answer, load, packet};
 use super::packet_texel::{OTHERS, R8, RGBA8, RGBA8_SRGB, RGBA16F, passes};
