@@ -2,7 +2,7 @@
 
 use estampe_ir::Type;
 use estampe_ir::interface::{Input, Output, Stage};
-use estampe_ir::lanes::Kernel;
+use estampe_ir::lanes::{Kernel, Terminator};
 use estampe_ir::text;
 use estampe_ir::tree::verify;
 use estampe_ir::tree::{Builder, passes};
@@ -62,6 +62,48 @@ block l0 (v3) {
 outputs v3
 ";
     assert_eq!(optimised(text), text);
+}
+
+/// Lanes that left a block early do not run the rest of it: where none is left, it is skipped, if
+/// it is long.
+#[test]
+fn the_rest_of_a_block_is_skipped_where_all_lanes_left_it() {
+    let kernel = |divisions: usize| {
+        let rest: String = (2..2 + divisions)
+            .map(|at| format!("  v{} = fdiv v{at}, v1\n", at + 1))
+            .collect();
+        let last = 2 + divisions;
+        let source = format!(
+            "tree fragment
+input cover
+input varying(0)
+output color(0, 0)
+m0 = input_mask 0
+v1 = input 1
+v2 = const 2.0
+block l0 (v{}) {{
+  if m0 {{
+    branch l0(v1)
+  }}
+{rest}  branch l0(v{last})
+}}
+outputs v{}
+",
+            last + 1,
+            last + 1
+        );
+        let tree = text::tree(&source).unwrap_or_else(|error| panic!("{error}"));
+        verify(&tree).unwrap_or_else(|error| panic!("{error}"));
+        Kernel::from_tree(&tree)
+    };
+    let branches = |kernel: &Kernel| {
+        let blocks = kernel.blocks.iter();
+        blocks
+            .filter(|block| matches!(block.terminator, Terminator::Branch { .. }))
+            .count()
+    };
+    assert_eq!(branches(&kernel(2)), 0);
+    assert_eq!(branches(&kernel(4)), 1);
 }
 
 #[test]

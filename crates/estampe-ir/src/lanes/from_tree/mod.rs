@@ -9,6 +9,9 @@
 //! * The end of the body of a divergent loop: if lanes wait, they begin the next iteration.
 //! * An `if`: the lanes that chose a side run through it. It is skipped if there are none, and if
 //!   it costs more than a branch.
+//! * After a construct that some lanes left for another: the rest of the body is skipped if all
+//!   did, and if it costs more than two branches. `if … { continue; }` at the start of a long body
+//!   then saves what an `if` around the rest would.
 //!
 //! Where ways of the flow graph join, a part of the state that differs becomes a parameter.
 
@@ -91,10 +94,12 @@ type Carried<'a> = (&'a [Value], &'a [Value]);
 
 impl<'a> Lowering<'a> {
     fn body(&mut self, nodes: &'a [Node]) {
-        for node in nodes {
+        for (at, node) in nodes.iter().enumerate() {
             if self.current.is_none() {
                 return;
             }
+            let rest = &nodes[at + 1..];
+            let before = self.state[RUNNING];
             match node {
                 Node::Op { op, first } => self.op(op, *first),
                 Node::If {
@@ -140,7 +145,20 @@ impl<'a> Lowering<'a> {
                 }
                 Node::Branch { label, arguments } => self.branch(*label, arguments),
             }
+            if self.may_skip_after(node, before) && cost(rest) >= 2 * WORTH_A_BRANCH {
+                // What the rest defines is seen in the rest alone.
+                self.side(rest);
+                return;
+            }
         }
+    }
+
+    /// True if lanes that ran before a construct may all have left it for another one.
+    fn may_skip_after(&self, node: &Node, before: Value) -> bool {
+        self.current.is_some()
+            && matches!(node, Node::If { .. } | Node::Block { .. })
+            && !self.leaving.of(node).is_empty()
+            && self.state[RUNNING] != before
     }
 
     fn op(&mut self, op: &Op, first: Value) {
