@@ -213,8 +213,14 @@ impl BoundTextures<'_> {
     /// Loads a packet of texels of several textures at the same coordinates; false if they cannot
     /// be loaded together.
     fn load_all(&self, accesses: &mut TextureAccesses<'_>) -> bool {
+        let (operands, _) = accesses.all();
+        let is_block = matches!(operands, [x, y, ..] if begins_block(x, y));
         let ops = accesses.ops;
-        let Some(first) = ops.first().and_then(|op| self.loaded(op.texture)) else {
+        let Some(first) = ops
+            .first()
+            .filter(|_| is_block)
+            .and_then(|op| self.loaded(op.texture))
+        else {
             return false;
         };
         let mut views = [first; MOST];
@@ -356,6 +362,13 @@ fn first_or_zeros(words: Option<&[Packet<u32>]>) -> Option<&Packet<i32>> {
 }
 
 static ZEROS: Packet<i32> = Packet([0; LANES]);
+
+/// True if the first quad of a packet is one of neighbouring texels, as of a block: the packets of
+/// a compute shader seldom are, and are told apart before anything else is looked at.
+#[inline(always)]
+fn begins_block(x: &Packet<u32>, y: &Packet<u32>) -> bool {
+    x.0[1].wrapping_sub(x.0[0]) == 1 && x.0[2] == x.0[0] && y.0[2].wrapping_sub(y.0[0]) == 1
+}
 
 /// The integer coordinates of a packet's texels, with the layer after them.
 #[inline(always)]

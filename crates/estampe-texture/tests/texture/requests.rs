@@ -285,7 +285,8 @@ fn a_texture_at_several_places_is_sampled_as_at_each() {
     }
 }
 
-/// Filters whose taps stand in columns: at each scale, in every address mode, inside and at borders.
+/// Filters whose taps stand in columns: at each scale, in every address mode, inside and at
+/// borders.
 #[test]
 fn taps_of_the_same_columns_are_sampled_as_each_alone() {
     let random = &mut Random::new(39);
