@@ -426,6 +426,10 @@ pub(super) struct EdgeLanes<S: Lanes> {
     pub(super) value: i32x16<S>,
     pub(super) a: i32x16<S>,
     pub(super) b: i32x16<S>,
+    /// The point's distance from a vertex of the edge, and 0 or −1 for the fill rule:
+    /// `value = a·x + b·y + bias`, modulo 2³².
+    pub(super) from: [i32x16<S>; 2],
+    pub(super) bias: i32x16<S>,
 }
 
 /// The three edges, wound so that inside is ≥ 0, the fill rule folded in, at a point for each
@@ -479,11 +483,14 @@ impl<S: Lanes> Winding<S> {
         let a = self.clockwise.select(a, zero - a);
         let b = self.clockwise.select(b, zero - b);
         let owns = (self.clockwise & if_clockwise) | (!self.clockwise & if_not);
-        let [x, y] = self.point;
+        let from = [self.point[0] - ax, self.point[1] - ay];
+        let bias = owns.select(zero, less);
         EdgeLanes {
-            value: a * (x - ax) + b * (y - ay) + owns.select(zero, less),
+            value: a * from[0] + b * from[1] + bias,
             a,
             b,
+            from,
+            bias,
         }
     }
 }
