@@ -30,6 +30,24 @@ impl DepthFormat {
         }
     }
 
+    /// Sixteen depths in 0..=1, stored or about to be, as numbers that compare as stored depths do:
+    /// codes, which need no division.
+    #[inline(always)]
+    pub(crate) fn codes<S: Lanes>(self, s: S, depth: f32x16<S>) -> f32x16<S> {
+        match self {
+            Self::Float => depth,
+            Self::Fixed(fixed) => fixed.rounded_lanes(s, depth),
+        }
+    }
+
+    /// The distance of two neighbouring codes; 0 of float depth.
+    pub(crate) fn step(self) -> f32 {
+        match self {
+            Self::Float => 0.0,
+            Self::Fixed(fixed) => fixed.decode(1),
+        }
+    }
+
     /// [`DepthFormat::stored`] of sixteen depths.
     #[inline(always)]
     pub(crate) fn stored_lanes<S: Lanes>(self, s: S, depth: f32x16<S>) -> f32x16<S> {

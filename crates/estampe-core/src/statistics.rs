@@ -50,6 +50,13 @@ pub struct Statistics {
     /// on the SIMD level.
     #[doc(hidden)]
     pub triangles_set_up_in_lanes: u64,
+    /// Triangles that were covered together with those of other packets, once for each tile.
+    #[doc(hidden)]
+    pub triangles_gathered_in_tiles: u64,
+    /// Packets of triangles that change stencil values, in which all of the triangle was known to
+    /// fail the depth test. They depend on the SIMD level.
+    #[doc(hidden)]
+    pub packets_failing_depth: u64,
     /// Triangles whose pixels were written together with those of another one before, which had the
     /// same colour everywhere, counted once for each tile that they touch.
     pub triangles_gathered: u64,
@@ -102,6 +109,8 @@ impl std::ops::AddAssign for Statistics {
             }
         }
         self.small_triangle_pixels += other.small_triangle_pixels;
+        self.triangles_gathered_in_tiles += other.triangles_gathered_in_tiles;
+        self.packets_failing_depth += other.packets_failing_depth;
         self.triangles_set_up_in_lanes += other.triangles_set_up_in_lanes;
         self.triangles_gathered += other.triangles_gathered;
         self.packets_joined += other.packets_joined;

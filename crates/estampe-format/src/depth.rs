@@ -48,14 +48,16 @@ impl FixedDepth {
         })
     }
 
-    /// round_ties_even(depth·most) of sixteen depths in 0..=1.
+    /// The codes of sixteen depths in 0..=1 as numbers: round_ties_even(depth·most). Of a stored
+    /// depth this is its code.
     ///
     /// The product p is at most 2²⁴. Below 2²³ the sum p + 2²³ is between 2²³ and 2²⁴, where
     /// numbers are the integers: the addition rounds p to nearest, ties to even, and taking 2²³
     /// away is exact. From 2²³ on p is an integer as it is; the sum would be above 2²⁴, where odd
     /// integers are no numbers. −0 keeps its sign.
     #[inline(always)]
-    fn rounded_lanes<S: Lanes>(self, s: S, depth: f32x16<S>) -> f32x16<S> {
+    #[must_use]
+    pub fn rounded_lanes<S: Lanes>(self, s: S, depth: f32x16<S>) -> f32x16<S> {
         const INTEGERS: f32 = 8_388_608.0;
         let product = depth * self.most;
         let rounded = ((product + INTEGERS) - INTEGERS).copysign(product);

@@ -91,6 +91,19 @@ impl TrianglePacket {
 }
 
 impl TrianglePacket {
+    /// Copies what coverage and tests read of a triangle: its place in the window and its depth.
+    #[inline(always)]
+    pub(crate) fn copy_window(&mut self, lane: usize, from: &Self, of: usize) {
+        for corner in 0..3 {
+            self.x[corner][lane] = from.x[corner][of];
+            self.y[corner][lane] = from.y[corner][of];
+        }
+        self.z.set(lane, from.z.lane(of));
+        let copy = |to: u16, from: u16| to & !(1 << lane) | (from >> of & 1) << lane;
+        self.clockwise = copy(self.clockwise, from.clockwise);
+        self.front = copy(self.front, from.front);
+    }
+
     /// Sets a lane.
     #[inline(always)]
     pub(crate) fn set(&mut self, lane: usize, triangle: &Triangle) {

@@ -8,6 +8,7 @@
 //! triangle asks. (Greene, Kass and Miller 1993.)
 
 use super::compare::{orders, prefers_less};
+use super::packet_ranges::PacketRanges;
 use super::sample_tests::SampleTests;
 use crate::bounds::plane::Plane;
 use crate::fragment::interpolate::{DepthPlane, PlaneOrigin, evaluate};
@@ -16,12 +17,14 @@ use estampe_simd::{LANE_X, LANE_Y, LANES, Lanes, Level, SimdBase, dispatch, f32x
 use estampe_types::state::CompareFunction;
 
 /// Ranges of the stored depths of a tile's blocks.
-#[derive(Debug, Clone)]
+#[derive(Debug)]
 pub(crate) struct HierarchicalZ {
     least: [f32; LANES],
     greatest: [f32; LANES],
     /// Blocks whose ranges are out of date, one bit each.
     stale: u16,
+    /// Ranges of packets.
+    pub(crate) packets: PacketRanges,
 }
 
 /// The blocks in which a triangle is hidden or certain to pass, one bit each.
@@ -31,8 +34,6 @@ pub(crate) struct BlockClasses {
     pub(crate) hidden: u16,
     /// Every covered sample passes.
     pub(crate) certain: u16,
-    /// Every covered sample fails the depth test, which may change its stencil value.
-    pub(crate) failing: u16,
     /// The triangle's least and greatest depth, were it to cover the block.
     least: [f32; LANES],
     greatest: [f32; LANES],
@@ -44,7 +45,6 @@ impl BlockClasses {
         Self {
             hidden,
             certain,
-            failing: 0,
             least: [0.0; LANES],
             greatest: [1.0; LANES],
         }
@@ -57,6 +57,7 @@ impl Default for HierarchicalZ {
             least: [0.0; LANES],
             greatest: [0.0; LANES],
             stale: u16::MAX,
+            packets: PacketRanges::default(),
         }
     }
 }
@@ -68,12 +69,14 @@ impl HierarchicalZ {
         self.least = [depth; LANES];
         self.greatest = [depth; LANES];
         self.stale = if cleared.is_some() { 0 } else { u16::MAX };
+        self.packets.invalidate(u16::MAX);
     }
 
     /// Notes that blocks were written.
     #[inline(always)]
     pub(crate) fn invalidate(&mut self, blocks: u16) {
         self.stale |= blocks;
+        self.packets.invalidate(blocks);
     }
 
     /// Classifies the blocks of a tile for a triangle that is tested in the way of `tests`. Where
@@ -118,12 +121,7 @@ impl HierarchicalZ {
         let DepthPlane { origin, z } = &look.plane;
         let positions = look.samples.subpixels();
         let nearest = |slope: f32, axis: usize, tile: i32, origin: f32| {
-            let sample = if (slope >= 0.0) == is_less {
-                least_offset(&positions, axis)
-            } else {
-                (side - 1) as f32 + greatest_offset(&positions, axis)
-            };
-            (tile as f32 + sample) - origin
+            (tile as f32 + corner(&positions, axis, slope, is_less, side)) - origin
         };
         let (tile_x, tile_y) = (look.tile.x, look.tile.y);
         let x = nearest(z.dx, 0, tile_x, origin.x);
@@ -196,7 +194,6 @@ impl HierarchicalZ {
         BlockClasses {
             hidden: if_so(failure_is_final, fails) | if_so(look.passes_in_vain, passes),
             certain: if_so(tests.is_depth_alone(), passes),
-            failing: if_so(!failure_is_final, fails),
             least: least.to_array(),
             greatest: greatest.to_array(),
         }
@@ -206,6 +203,7 @@ impl HierarchicalZ {
     #[inline(always)]
     pub(crate) fn replace(&mut self, blocks: u16, classes: &BlockClasses) {
         self.stale &= !blocks;
+        self.packets.invalidate(blocks);
         let mut left = blocks;
         while left != 0 {
             let block = left.trailing_zeros() as usize % LANES;
@@ -258,20 +256,33 @@ fn extreme<S: Lanes, const N: usize>(s: S, look: &HizQuery<'_, N>, least: bool) 
         let Plane { dx, dy, .. } = look.plane.z;
         let PlaneOrigin { x: x0, y: y0 } = look.plane.origin;
         let positions = look.samples.subpixels();
-        // The corner at which the plane is least: the first sample where it rises, the last where
-        // it falls.
-        let corner = |slope: f32, axis: usize| {
-            if (slope >= 0.0) == least {
-                least_offset(&positions, axis)
-            } else {
-                15.0 + greatest_offset(&positions, axis)
-            }
-        };
         let (tile_x, tile_y) = (look.tile.x, look.tile.y);
-        let x = distance(s, &LANE_X, (tile_x, corner(dx, 0)), x0);
-        let y = distance(s, &LANE_Y, (tile_y, corner(dy, 1)), y0);
+        let [columns, rows] = starts_of_units(s, 16);
+        let x = corner(&positions, 0, dx, least, 16);
+        let y = corner(&positions, 1, dy, least, 16);
+        // Positions are multiples of 1/256 below 2¹⁶: every sum is exact.
+        let splat = |value| <f32x16<S> as SimdBase<S>>::splat(s, value);
+        let x = columns + splat((tile_x as f32 + x) - x0);
+        let y = rows + splat((tile_y as f32 + y) - y0);
         evaluate(s, &look.plane.z, [x, y])
     })
+}
+
+/// Where in a square of `side` pixels, on an axis, a plane is least (or greatest) at a sample: at
+/// the first sample where it rises, at the last where it falls.
+#[inline(always)]
+pub(super) fn corner<const N: usize>(
+    positions: &[[i32; 2]; N],
+    axis: usize,
+    slope: f32,
+    least: bool,
+    side: i32,
+) -> f32 {
+    if (slope >= 0.0) == least {
+        least_offset(positions, axis)
+    } else {
+        (side - 1) as f32 + greatest_offset(positions, axis)
+    }
 }
 
 /// The least offset of a sample in its pixel, on an axis.
@@ -288,85 +299,13 @@ fn greatest_offset<const N: usize>(positions: &[[i32; 2]; N], axis: usize) -> f3
     offsets.fold(0, i32::max) as f32 * (1.0 / 256.0)
 }
 
-/// The distance of each block's column (or row) at an offset from a plane's origin.
+/// The first column and the first row of each of sixteen squares of `side` pixels.
 #[inline(always)]
-fn distance<S: Lanes>(
-    s: S,
-    lanes: &[u8; LANES],
-    (tile, offset): (i32, f32),
-    origin: f32,
-) -> f32x16<S> {
-    let mut starts = [0.0; LANES];
-    for (start, lane) in starts.iter_mut().zip(lanes) {
-        *start = (tile + i32::from(*lane) * 16) as f32;
+pub(super) fn starts_of_units<S: Lanes>(s: S, side: u8) -> [f32x16<S>; 2] {
+    let (mut columns, mut rows) = ([0.0; LANES], [0.0; LANES]);
+    for lane in 0..LANES {
+        columns[lane] = f32::from(LANE_X[lane] * side);
+        rows[lane] = f32::from(LANE_Y[lane] * side);
     }
-    // Positions are multiples of 1/256 below 2¹⁶: every sum is exact.
-    let splat = |value| <f32x16<S> as SimdBase<S>>::splat(s, value);
-    (f32x16::load_array(s, starts) + splat(offset)) - splat(origin)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::depth_format::{DepthFormat, StoredDepth};
-    use crate::per_sample::stencil::StencilTest;
-    use estampe_types::state::{DepthState, StencilFaceState, StencilOperation, StencilState};
-
-    /// The classes of a level triangle at a depth, in a tile whose first block holds depth 0.25 and
-    /// whose others hold 0.75.
-    fn classes(level: Level, depth: f32, depth_fail_op: StencilOperation) -> BlockClasses {
-        let mut stored = [[0.75; LANES]; 256];
-        stored[..LANES].fill([0.25; LANES]);
-        let face = StencilFaceState {
-            depth_fail_op,
-            ..StencilFaceState::default()
-        };
-        let tests = SampleTests {
-            bounds: None,
-            stencil: Some(StencilTest {
-                state: StencilState::from(face),
-                reference: [0; 2],
-            }),
-            depth: Some(DepthState {
-                write_enabled: false,
-                ..DepthState::LESS_WRITE
-            }),
-            stored: StoredDepth {
-                range: [0.0, 1.0],
-                format: DepthFormat::Float,
-            },
-        };
-        let look = HizQuery {
-            tests: &tests,
-            plane: DepthPlane {
-                origin: PlaneOrigin { x: 0.0, y: 0.0 },
-                z: Plane {
-                    origin: depth,
-                    ..Plane::default()
-                },
-            },
-            tile: TileShape {
-                x: 64,
-                y: 0,
-                log2: 6,
-            },
-            samples: SampleSet::<1>::new(1),
-            passes_in_vain: tests.passing_keeps(true),
-        };
-        HierarchicalZ::default().classify(level, &look, false, &stored)
-    }
-
-    #[test]
-    fn a_shadow_volume_counts_where_it_fails_and_changes_nothing_elsewhere() {
-        for level in Level::all_available() {
-            let counting = |depth| classes(level, depth, StencilOperation::IncrementWrap);
-            let between = counting(0.5);
-            assert_eq!([between.failing, between.hidden], [1, 0xFFFE], "{level:?}");
-            let behind = counting(0.9);
-            assert_eq!([behind.failing, behind.hidden], [0xFFFF, 0], "{level:?}");
-            assert_eq!(behind.certain, 0, "{level:?}");
-            let keeping = classes(level, 0.5, StencilOperation::Keep);
-            assert_eq!([keeping.failing, keeping.hidden], [0, 0xFFFF], "{level:?}");
-        }
-    }
+    [f32x16::load_array(s, columns), f32x16::load_array(s, rows)]
 }

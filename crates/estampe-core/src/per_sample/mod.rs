@@ -13,6 +13,8 @@ pub(crate) mod sample_tests;
 
 pub(crate) mod hiz;
 
+pub(crate) mod packet_ranges;
+
 pub(crate) mod blend;
 
 pub(crate) mod logic;

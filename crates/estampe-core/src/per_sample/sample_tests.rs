@@ -6,8 +6,8 @@
 //! combination, because branches on state that is the same for a whole draw are predicted.
 
 use super::compare::compare;
-use super::stencil::StencilTest;
-use crate::depth_format::StoredDepth;
+use super::stencil::{FaceLanes, StencilTest};
+use crate::depth_format::{StoredDepth, clamp_depth};
 use estampe_simd::{LANES, Lanes, Select, SimdBase, f32x16, outline, u8x16};
 use estampe_types::state::{CompareFunction, DepthState};
 
@@ -51,62 +51,129 @@ impl SampleTests {
 
     /// Tests sixteen samples whose depths are `new`, [as they are stored](StoredDepth::of). Returns
     /// the lanes that pass; their depth and stencil values are written. `front` has the lanes whose
-    /// primitive faces the viewer.
+    /// primitive faces the viewer: quads of both faces may share a packet.
     #[inline(always)]
     pub(crate) fn run<S: Lanes>(
         &self,
         s: S,
         new: f32x16<S>,
-        mut lanes: u16,
+        lanes: u16,
         front: u16,
         stored: StoredSamples<'_>,
     ) -> u16 {
         outline!(s, {
-            let old = match &stored.depth {
-                Some(depth) => f32x16::load_array_ref(s, depth),
-                None => new,
-            };
-            if let (Some(range), Some(_)) = (self.bounds, &stored.depth) {
-                lanes &= inside(s, old, range);
-            }
-            let depth_test = self.depth.filter(|_| stored.depth.is_some());
-            let nearer = match depth_test {
-                Some(state) => s.bits_of_mask(compare(state.compare, new, old)),
-                None => u16::MAX,
-            };
-            let passed = match (&self.stencil, stored.stencil) {
-                (Some(test), Some(stencil)) => {
-                    test_stencil(s, test, [lanes, nearer, front], stencil)
-                }
-                _ => lanes & nearer,
-            };
-            if let (Some(depth), true) = (
-                stored.depth,
-                depth_test.is_some_and(|state| state.write_enabled),
-            ) && passed != 0
-            {
-                s.mask_from_bits(passed).select(new, old).store_array(depth);
-            }
-            passed
+            self.run_with(
+                s,
+                new,
+                lanes,
+                (stored, false),
+                |[lanes, nearer], stencil| {
+                    let test = self.stencil.as_ref()?;
+                    let mut passed = 0;
+                    for (face, of_face) in [(test.front(), front), (test.back(), !front)] {
+                        let lanes = lanes & of_face;
+                        if lanes != 0 {
+                            passed |= test_stencil(s, &face.lanes(s), [lanes, nearer], stencil);
+                        }
+                    }
+                    Some(passed)
+                },
+            )
         })
     }
 
-    /// [`SampleTests::run`] of samples that are known to fail the depth test: stencil values may
-    /// change, nothing else.
+    /// Sixteen interpolated depths as [`SampleTests::run_face`] takes them: as they are stored, or
+    /// as [codes](crate::depth_format::DepthFormat::codes) if the draw does not store them.
+    #[inline(always)]
+    pub(crate) fn comparable<S: Lanes>(&self, s: S, depth: f32x16<S>) -> f32x16<S> {
+        let StoredDepth { range, format } = self.stored;
+        let depth = clamp_depth(s, depth, range);
+        if self.writes_depth() {
+            format.stored_lanes(s, depth)
+        } else {
+            format.codes(s, depth)
+        }
+    }
+
+    /// [`SampleTests::run`] of one primitive, for whose face the stencil test was prepared, at
+    /// [comparable](SampleTests::comparable) depths.
+    #[inline(always)]
+    pub(crate) fn run_face<S: Lanes>(
+        &self,
+        s: S,
+        new: f32x16<S>,
+        lanes: u16,
+        face: Option<&FaceLanes<S>>,
+        stored: StoredSamples<'_>,
+    ) -> u16 {
+        self.run_with(
+            s,
+            new,
+            lanes,
+            (stored, !self.writes_depth()),
+            #[inline(always)]
+            |lanes, stencil| face.map(|face| test_stencil(s, face, lanes, stencil)),
+        )
+    }
+
+    /// The tests around a stencil test, which gets the lanes that are tested and those that pass
+    /// the depth test, and says which pass both; `None` if there is no stencil test. With `codes`,
+    /// the new depths are codes.
+    #[inline(always)]
+    fn run_with<S: Lanes>(
+        &self,
+        s: S,
+        new: f32x16<S>,
+        mut lanes: u16,
+        (stored, codes): (StoredSamples<'_>, bool),
+        stencil_test: impl FnOnce([u16; 2], &mut [u8; LANES]) -> Option<u16>,
+    ) -> u16 {
+        let old = match &stored.depth {
+            Some(depth) => f32x16::load_array_ref(s, depth),
+            None => new,
+        };
+        if let (Some(range), Some(_)) = (self.bounds, &stored.depth) {
+            lanes &= inside(s, old, range);
+        }
+        let depth_test = self.depth.filter(|_| stored.depth.is_some());
+        let nearer = match depth_test {
+            Some(state) => {
+                let old = if codes {
+                    self.stored.format.codes(s, old)
+                } else {
+                    old
+                };
+                s.bits_of_mask(compare(state.compare, new, old))
+            }
+            None => u16::MAX,
+        };
+        let stencil = stored.stencil;
+        let passed = stencil.and_then(|stencil| stencil_test([lanes, nearer], stencil));
+        let passed = passed.unwrap_or(lanes & nearer);
+        if let (Some(depth), true) = (
+            stored.depth,
+            depth_test.is_some_and(|state| state.write_enabled),
+        ) && passed != 0
+        {
+            s.mask_from_bits(passed).select(new, old).store_array(depth);
+        }
+        passed
+    }
+
+    /// [`SampleTests::run_face`] of samples that are known to fail the depth test: stencil values
+    /// may change, nothing else.
     #[inline(always)]
     pub(crate) fn run_failing<S: Lanes>(
         &self,
         s: S,
         mut lanes: u16,
-        front: u16,
-        stored: StoredSamples<'_>,
+        face: &FaceLanes<S>,
+        (depth, stencil): (Option<&[f32; LANES]>, &mut [u8; LANES]),
     ) {
-        if let (Some(range), Some(depth)) = (self.bounds, &stored.depth) {
+        if let (Some(range), Some(depth)) = (self.bounds, depth) {
             lanes &= inside(s, f32x16::load_array_ref(s, depth), range);
         }
-        if let (Some(test), Some(stencil)) = (&self.stencil, stored.stencil) {
-            test_stencil(s, test, [lanes, 0, front], stencil);
-        }
+        test_stencil(s, face, [lanes, 0], stencil);
     }
 
     /// Returns true if a sample that passes its depth test changes neither depth nor stencil.
@@ -152,7 +219,7 @@ impl SampleTests {
         };
         let passes = match (&self.stencil, stencil) {
             (Some(test), Some(stencil)) => {
-                let face = if front { test.front() } else { test.back() };
+                let face = test.face(front);
                 let passes = face.passes_one(*stencil);
                 *stencil = face.updated_one(*stencil, passes, passes_depth);
                 passes && passes_depth
@@ -182,28 +249,19 @@ impl SampleTests {
     }
 }
 
-/// The stencil test between the depth bounds and the depth test. Front and back faces are tested
-/// apart where quads of both share a packet.
+/// The stencil test between the depth bounds and the depth test, which `nearer` passes.
 #[inline(always)]
 fn test_stencil<S: Lanes>(
     s: S,
-    test: &StencilTest,
-    [lanes, nearer, front]: [u16; 3],
+    face: &FaceLanes<S>,
+    [lanes, nearer]: [u16; 2],
     stencil: &mut [u8; LANES],
 ) -> u16 {
-    let mut values = u8x16::load_array_ref(s, stencil);
-    let mut passed = 0;
-    for (face, lanes) in [(test.front(), lanes & front), (test.back(), lanes & !front)] {
-        if lanes == 0 {
-            continue;
-        }
-        let passes = lanes & face.passes(s, values);
-        let outcomes = [lanes & !passes, passes & !nearer, passes & nearer];
-        values = face.updated(s, values, outcomes);
-        passed |= passes & nearer;
-    }
-    values.store_array(stencil);
-    passed
+    let values = u8x16::load_array_ref(s, stencil);
+    let passes = lanes & face.passes(values);
+    let outcomes = [lanes & !passes, passes & !nearer, passes & nearer];
+    face.updated(s, values, outcomes).store_array(stencil);
+    passes & nearer
 }
 
 /// The lanes whose stored depth lies in a range.

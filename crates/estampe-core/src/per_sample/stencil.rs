@@ -5,7 +5,7 @@
 
 use super::compare::compare;
 use estampe_simd::{LANES, Lanes, Select, SimdBase, SimdMask, mask8x16, u8x16};
-use estampe_types::state::{StencilFaceState, StencilOperation, StencilState};
+use estampe_types::state::{CompareFunction, StencilFaceState, StencilOperation, StencilState};
 
 /// The stencil test of a draw.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -37,6 +37,12 @@ impl StencilTest {
         }
     }
 
+    /// The test of one face.
+    #[inline(always)]
+    pub(crate) fn face(&self, is_front: bool) -> FaceTest {
+        if is_front { self.front() } else { self.back() }
+    }
+
     /// Returns true if the stored value is kept when the stencil test, or the depth test after it,
     /// fails.
     pub(crate) fn failing_keeps(state: &StencilState) -> bool {
@@ -59,31 +65,23 @@ impl StencilTest {
 }
 
 impl FaceTest {
-    /// The lanes in which `(reference & mask) OP (stored & mask)` holds.
+    /// The test in lanes, for many packets.
     #[inline(always)]
-    pub(crate) fn passes<S: Lanes>(&self, s: S, stored: u8x16<S>) -> u16 {
-        let splat = |value| <u8x16<S> as SimdBase<S>>::splat(s, value);
-        let mask = self.state.read_mask;
-        let reference = splat(self.reference & mask);
-        bits(compare(self.state.compare, reference, stored & splat(mask)))
+    pub(crate) fn lanes<S: Lanes>(&self, s: S) -> FaceLanes<S> {
+        let Self { state, reference } = self;
+        let update = |operation| Update::new(s, operation, *reference, state.write_mask);
+        FaceLanes {
+            compare: state.compare,
+            reference: splat(s, *reference & state.read_mask),
+            read_mask: splat(s, state.read_mask),
+            writable: splat(s, state.write_mask),
+            fail: update(state.fail_op),
+            depth_fail: update(state.depth_fail_op),
+            pass: update(state.pass_op),
+        }
     }
 
-    /// The stored values after a test: `failed`, `depth_failed` and `passed` are the lanes of each
-    /// outcome.
-    #[inline(always)]
-    pub(crate) fn updated<S: Lanes>(
-        &self,
-        s: S,
-        stored: u8x16<S>,
-        [failed, depth_failed, passed]: [u16; 3],
-    ) -> u8x16<S> {
-        let state = &self.state;
-        let stored = self.apply(s, state.fail_op, failed, stored);
-        let stored = self.apply(s, state.depth_fail_op, depth_failed, stored);
-        self.apply(s, state.pass_op, passed, stored)
-    }
-
-    /// [`FaceTest::passes`] of one value.
+    /// Returns true if `(reference & mask) OP (stored & mask)` holds of one value.
     #[inline(always)]
     pub(crate) fn passes_one(&self, stored: u8) -> bool {
         let mask = self.state.read_mask;
@@ -110,34 +108,106 @@ impl FaceTest {
         };
         new & self.state.write_mask | stored & !self.state.write_mask
     }
+}
 
-    /// Applies an operation in the lanes of a mask.
+/// The stencil test of one face, prepared for many packets: every value is in its lanes.
+#[derive(Clone, Copy)]
+pub(crate) struct FaceLanes<S: Lanes> {
+    compare: CompareFunction,
+    /// Under the read mask.
+    reference: u8x16<S>,
+    read_mask: u8x16<S>,
+    writable: u8x16<S>,
+    fail: Update<S>,
+    depth_fail: Update<S>,
+    pass: Update<S>,
+}
+
+impl<S: Lanes> FaceLanes<S> {
+    /// The lanes in which `(reference & mask) OP (stored & mask)` holds.
     #[inline(always)]
-    fn apply<S: Lanes>(
+    pub(crate) fn passes(&self, stored: u8x16<S>) -> u16 {
+        // Most tests, and most of all those of shadow volumes.
+        if self.compare == CompareFunction::Always {
+            return u16::MAX;
+        }
+        bits(compare(
+            self.compare,
+            self.reference,
+            stored & self.read_mask,
+        ))
+    }
+
+    /// The stored values after a test: `failed`, `depth_failed` and `passed` are the lanes of each
+    /// outcome.
+    #[inline(always)]
+    pub(crate) fn updated(
         &self,
         s: S,
-        operation: StencilOperation,
-        lanes: u16,
         stored: u8x16<S>,
+        [failed, depth_failed, passed]: [u16; 3],
     ) -> u8x16<S> {
-        if lanes == 0 || operation == StencilOperation::Keep {
+        let stored = self.fail.apply(s, self.writable, failed, stored);
+        let stored = self
+            .depth_fail
+            .apply(s, self.writable, depth_failed, stored);
+        self.pass.apply(s, self.writable, passed, stored)
+    }
+}
+
+/// A stencil operation as arithmetic that is the same for all operations, so that lanes need no
+/// branch on it: `((v & kept) ^ flipped) +ₛ up −ₛ down + step`, where the first sum and the
+/// difference saturate and the last sum wraps.
+#[derive(Clone, Copy)]
+struct Update<S: Lanes> {
+    /// True if stored values do not change.
+    keeps: bool,
+    kept: u8x16<S>,
+    flipped: u8x16<S>,
+    up: u8x16<S>,
+    down: u8x16<S>,
+    step: u8x16<S>,
+}
+
+impl<S: Lanes> Update<S> {
+    #[inline(always)]
+    fn new(s: S, operation: StencilOperation, reference: u8, write_mask: u8) -> Self {
+        let (kept, flipped, up, down, step) = match operation {
+            StencilOperation::Keep => (0xFF, 0, 0, 0, 0),
+            StencilOperation::Zero => (0, 0, 0, 0, 0),
+            StencilOperation::Replace => (0, reference, 0, 0, 0),
+            StencilOperation::Invert => (0xFF, 0xFF, 0, 0, 0),
+            StencilOperation::IncrementClamp => (0xFF, 0, 1, 0, 0),
+            StencilOperation::DecrementClamp => (0xFF, 0, 0, 1, 0),
+            StencilOperation::IncrementWrap => (0xFF, 0, 0, 0, 1),
+            StencilOperation::DecrementWrap => (0xFF, 0, 0, 0, 0xFF),
+        };
+        Self {
+            keeps: operation == StencilOperation::Keep || write_mask == 0,
+            kept: splat(s, kept),
+            flipped: splat(s, flipped),
+            up: splat(s, up),
+            down: splat(s, down),
+            step: splat(s, step),
+        }
+    }
+
+    /// Applies the operation in the lanes of a mask.
+    #[inline(always)]
+    fn apply(&self, s: S, writable: u8x16<S>, lanes: u16, stored: u8x16<S>) -> u8x16<S> {
+        if self.keeps {
             return stored;
         }
-        let splat = |value| <u8x16<S> as SimdBase<S>>::splat(s, value);
-        let new = match operation {
-            StencilOperation::Keep => stored,
-            StencilOperation::Zero => splat(0),
-            StencilOperation::Replace => splat(self.reference),
-            StencilOperation::Invert => !stored,
-            StencilOperation::IncrementClamp => s.saturating_add_u8x16(stored, splat(1)),
-            StencilOperation::DecrementClamp => s.saturating_sub_u8x16(stored, splat(1)),
-            StencilOperation::IncrementWrap => stored + splat(1),
-            StencilOperation::DecrementWrap => stored - splat(1),
-        };
-        let writable = splat(self.state.write_mask);
-        let new = (new & writable) | (stored & !writable);
+        let new = s.saturating_add_u8x16((stored & self.kept) ^ self.flipped, self.up);
+        let new = s.saturating_sub_u8x16(new, self.down) + self.step;
+        let new = stored ^ ((stored ^ new) & writable);
         mask8x16::from_bitmask(s, u64::from(lanes)).select(new, stored)
     }
+}
+
+#[inline(always)]
+fn splat<S: Lanes>(s: S, value: u8) -> u8x16<S> {
+    SimdBase::splat(s, value)
 }
 
 #[inline(always)]
@@ -154,7 +224,6 @@ fn bits<S: Lanes>(mask: mask8x16<S>) -> u16 {
 mod tests {
     use super::*;
     use estampe_simd::{Level, dispatch};
-    use estampe_types::state::CompareFunction;
 
     const FUNCTIONS: [CompareFunction; 8] = [
         CompareFunction::Never,
@@ -169,13 +238,13 @@ mod tests {
 
     #[inline(always)]
     fn passing<S: Lanes>(s: S, test: &FaceTest, stored: &[u8; 16]) -> u16 {
-        test.passes(s, u8x16::load_array_ref(s, stored))
+        test.lanes(s).passes(u8x16::load_array_ref(s, stored))
     }
 
     #[inline(always)]
     fn updated<S: Lanes>(s: S, test: &FaceTest, stored: &[u8; 16], lanes: [u16; 3]) -> [u8; 16] {
-        test.updated(s, u8x16::load_array_ref(s, stored), lanes)
-            .to_array()
+        let stored = u8x16::load_array_ref(s, stored);
+        test.lanes(s).updated(s, stored, lanes).to_array()
     }
 
     /// Returns true if a reference passes against a stored value, by the definition.
@@ -216,6 +285,45 @@ mod tests {
                             assert_eq!(got >> lane & 1 == 1, expected, "{compare:?} {stored}");
                         }
                     }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn sixteen_operations_are_sixteen_times_one() {
+        use StencilOperation::*;
+        let operations = [
+            Keep,
+            Zero,
+            Replace,
+            Invert,
+            IncrementClamp,
+            DecrementClamp,
+            IncrementWrap,
+            DecrementWrap,
+        ];
+        for (level, operation) in Level::all_available()
+            .into_iter()
+            .flat_map(|level| operations.map(|operation| (level, operation)))
+        {
+            for write_mask in [0xFF, 0x0F, 0x80, 0] {
+                let state = StencilFaceState {
+                    pass_op: operation,
+                    write_mask,
+                    ..StencilFaceState::default()
+                };
+                let test = FaceTest {
+                    state,
+                    reference: 0x5A,
+                };
+                for first in (0..=240u8).step_by(16) {
+                    let stored: [u8; 16] =
+                        std::array::from_fn(|lane| first + u8::try_from(lane).expect("below 16"));
+                    let got = dispatch!(level, s => updated(s, &test, &stored, [0, 0, 0xF7FF]));
+                    let mut one = stored.map(|stored| test.updated_one(stored, true, true));
+                    one[11] = stored[11];
+                    assert_eq!(got, one, "{level:?} {operation:?} {write_mask}");
                 }
             }
         }

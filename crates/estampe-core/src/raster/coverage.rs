@@ -1,5 +1,6 @@
 //! Coverage of one primitive in one tile: a list of packets with a mask for each sample.
 
+use super::walk::WalkScratch;
 use super::{MAX_SAMPLES, SampleSet, packet_origin};
 use crate::bounds::pixel_rect::PixelRect;
 use estampe_simd::LANES;
@@ -34,14 +35,22 @@ impl<const N: usize> Covered<N> {
 }
 
 /// The packets of a tile that one primitive covers, each at most once.
-#[derive(Debug, Clone)]
+#[derive(Debug, Default)]
 pub(crate) struct CoverageList<const N: usize> {
-    samples: SampleSet<N>,
-    items: [Covered<N>; MAX_PACKETS],
-    len: usize,
+    pub(super) covered: CoveredPackets<N>,
+    /// Memory of the walk over a polygon's packets.
+    pub(super) walk: WalkScratch,
 }
 
-impl<const N: usize> Default for CoverageList<N> {
+/// The items of a list.
+#[derive(Debug)]
+pub(super) struct CoveredPackets<const N: usize> {
+    pub(super) samples: SampleSet<N>,
+    pub(super) items: [Covered<N>; MAX_PACKETS],
+    pub(super) len: usize,
+}
+
+impl<const N: usize> Default for CoveredPackets<N> {
     fn default() -> Self {
         Self {
             samples: SampleSet::new(N),
@@ -54,41 +63,57 @@ impl<const N: usize> Default for CoverageList<N> {
     }
 }
 
+impl<const N: usize> Clone for CoverageList<N> {
+    fn clone(&self) -> Self {
+        let mut clone = Self::default();
+        clone.clone_from(self);
+        clone
+    }
+
+    /// Copies the items alone.
+    fn clone_from(&mut self, from: &Self) {
+        let (covered, from) = (&mut self.covered, &from.covered);
+        covered.samples = from.samples;
+        covered.items[..from.len].copy_from_slice(&from.items[..from.len]);
+        covered.len = from.len;
+    }
+}
+
 impl<const N: usize> CoverageList<N> {
     #[inline(always)]
     pub(crate) fn clear(&mut self) {
-        self.len = 0;
+        self.covered.len = 0;
     }
 
     /// The samples of a pixel.
     #[inline(always)]
     pub(crate) fn samples(&self) -> SampleSet<N> {
-        self.samples
+        self.covered.samples
     }
 
     /// Empties the list for a target with other samples.
     pub(crate) fn set_samples(&mut self, samples: SampleSet<N>) {
-        self.samples = samples;
-        self.len = 0;
+        self.covered.samples = samples;
+        self.covered.len = 0;
     }
 
     /// Adds a packet. Masks of samples beyond the target's are dropped.
     #[inline(always)]
     pub(crate) fn push(&mut self, packet: u32, mut masks: [u16; N]) {
-        debug_assert!(self.len < MAX_PACKETS, "a packet comes once");
+        debug_assert!(self.covered.len < MAX_PACKETS, "a packet comes once");
         if N == MAX_SAMPLES {
-            masks[self.samples.count()..].fill(0);
+            masks[self.covered.samples.count()..].fill(0);
         }
         let packet = (packet & 0xFF) as u16;
-        if let Some(item) = self.items.get_mut(self.len) {
+        if let Some(item) = self.covered.items.get_mut(self.covered.len) {
             *item = Covered { packet, masks };
-            self.len += 1;
+            self.covered.len += 1;
         }
     }
 
     #[inline(always)]
     pub(crate) fn items(&self) -> &[Covered<N>] {
-        &self.items[..self.len]
+        &self.covered.items[..self.covered.len]
     }
 
     /// Clips each sample to a rectangle of the tile's pixels.
@@ -116,18 +141,18 @@ impl<const N: usize> CoverageList<N> {
     #[inline(always)]
     pub(crate) fn retain(&mut self, mut change: impl FnMut(&mut Covered<N>)) {
         let mut kept = 0;
-        for at in 0..self.len {
-            let mut item = self.items[at];
+        for at in 0..self.covered.len {
+            let mut item = self.covered.items[at];
             change(&mut item);
-            self.items[kept] = item;
+            self.covered.items[kept] = item;
             kept += usize::from(item.any() != 0);
         }
-        self.len = kept;
+        self.covered.len = kept;
     }
 
     /// Puts the packets in the order of their numbers, which is the same at every SIMD level.
     pub(crate) fn sort(&mut self) {
-        self.items[..self.len].sort_unstable_by_key(|item| item.packet);
+        self.covered.items[..self.covered.len].sort_unstable_by_key(|item| item.packet);
     }
 
     /// Clips the list to a rectangle of the tile's pixels.

@@ -19,6 +19,8 @@ mod tile_shape;
 
 pub(crate) mod triangle;
 
+mod walk;
+
 pub(crate) mod small;
 
 pub(crate) mod pixel_list;
@@ -34,6 +36,7 @@ pub(crate) mod point;
 pub(crate) use coverage::{CoverageList, Covered, MAX_PACKETS, rect_mask};
 pub(crate) use samples::{MAX_SAMPLES, SampleSet, standard_positions};
 pub(crate) use tile_shape::TileShape;
+pub(crate) use walk::PacketClasses;
 
 /// The pixel at which a packet of a tile begins.
 #[inline(always)]

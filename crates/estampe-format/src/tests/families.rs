@@ -274,7 +274,15 @@ fn depth_is_the_nearest_codes_number() {
                         .stored_lanes(s, f32x16::load_array(s, packet))
                         .to_array()
                 }
+                #[inline(always)]
+                fn codes<S: Lanes>(s: S, packet: [f32; LANES], codec: FixedDepth) -> [f32; LANES] {
+                    let stored = f32x16::load_array(s, packet);
+                    codec.rounded_lanes(s, stored).to_array()
+                }
                 let stored = dispatch!(level, s => run(s, packet, codec));
+                let codes = dispatch!(level, s => codes(s, stored, codec));
+                let expected = stored.map(|stored| codec.code(stored) as f32);
+                assert!(codes == expected, "{level:?} {stored:?}");
                 for (depth, stored) in packet.into_iter().zip(stored) {
                     assert_eq!(stored.to_bits(), one(depth), "{level:?} {depth:e}");
                     let stored_again = codec.stored(stored);
@@ -286,6 +294,7 @@ fn depth_is_the_nearest_codes_number() {
             let exact = (f64::from(code) / f64::from(most)) as f32;
             assert_eq!(codec.decode(code), exact);
             assert_eq!(codec.stored(exact), exact, "codes survive");
+            assert_eq!(codec.code(exact), code, "codes are found again");
         }
     }
     assert_eq!(FixedDepth::new(TextureFormat::Depth32Float), None);

@@ -25,6 +25,7 @@ mod primitive_restart;
 mod primitives;
 mod samples;
 mod scan_conversion;
+mod shadow_volumes;
 mod shared_edges;
 mod small_triangles;
 mod tessellation;

@@ -24,7 +24,9 @@
 //! deleted alone.
 
 mod buffer;
+mod counting;
 mod cross_triangle;
+mod gathered;
 mod quads;
 mod rasterize;
 mod resolve;
@@ -55,6 +57,8 @@ const ONLY_WIDE: &str = "the scalar level draws in order";
 #[derive(Debug)]
 pub(super) struct VisibilityScratch<const N: usize> {
     list: CoverageList<N>,
+    /// The packets in which all of a triangle fails the depth test.
+    failing: CoverageList<N>,
     buffer: VisibilityBuffer<N>,
     small: SmallTriangles<N>,
     pixels: PixelList,
@@ -68,6 +72,7 @@ impl<const N: usize> Default for VisibilityScratch<N> {
     fn default() -> Self {
         Self {
             list: CoverageList::default(),
+            failing: CoverageList::default(),
             buffer: VisibilityBuffer::default(),
             small: SmallTriangles::default(),
             pixels: PixelList::default(),
@@ -91,6 +96,7 @@ pub(super) fn add<const N: usize>(
         resolve(pass, job, scratch);
     }
     scratch.visibility.list.set_samples(pass.sample_set());
+    scratch.visibility.failing.set_samples(pass.sample_set());
     let buffer = &mut scratch.visibility.buffer;
     let may_wait = shortcuts::may_wait(work, entries);
     let first = match work.plan.path {

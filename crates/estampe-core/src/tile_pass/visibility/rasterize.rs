@@ -2,12 +2,14 @@
 
 use super::ONLY_WIDE;
 use super::buffer::TriangleRef;
+use super::gathered::GatheredTriangles;
 use super::shortcuts::OrderKind;
 use super::writer::{IdStorage, VisibilityTriangle, VisibilityWriter};
 use crate::bounds::bins::BinEntry;
 use crate::bounds::primitives::TrianglePacket;
 use crate::fragment::interpolate::DepthPlane;
 use crate::per_sample::hiz::{BlockClasses, HizQuery};
+use crate::per_sample::packet_ranges::PacketRanges;
 use crate::plan::tile_plan::TilePlan;
 use crate::raster::SampleSet;
 use crate::raster::triangle::TileTriangle;
@@ -25,13 +27,24 @@ pub(super) fn rasterize<const N: usize>(
     scratch: &mut TileScratch<N>,
 ) {
     let mut rasterizer = Rasterizer::new(pass, work, OrderKind::Submission, job, scratch);
+    // Fragments of small triangles that are shaded at once read more than is gathered.
+    let gathers = entries.len() > 1 && !rasterizer.crosses_triangles;
+    let mut gathered = GatheredTriangles::new();
     for entry in entries {
         let BinEntry::Triangles { packet, lanes } = *entry else {
             unreachable!("lines and points are drawn in order");
         };
-        rasterizer.entry(packet, lanes, id);
-        id += lanes.count_ones();
+        let triangles = &work.chunk.triangles[packet as usize];
+        if gathers && gathered.add(triangles, lanes) {
+            continue;
+        }
+        id += rasterizer.gathered(&mut gathered, id);
+        if !gathers || !gathered.add(triangles, lanes) {
+            rasterizer.entry((triangles, packet), lanes, id);
+            id += lanes.count_ones();
+        }
     }
+    rasterizer.gathered(&mut gathered, id);
     rasterizer.flush_cross_triangle();
     if let (Some(queries), Some(query)) = (work.queries, work.plan.query) {
         queries.add(query, rasterizer.passed);
@@ -86,6 +99,8 @@ pub(super) struct Rasterizer<'a, 'j, 't, const N: usize> {
     /// True if fragments of small triangles are shaded immediately, in packets of one fragment of
     /// each of sixteen triangles.
     pub(super) crosses_triangles: bool,
+    /// True if triangles change stencil values and store no depth.
+    counts: bool,
     /// Samples that passed all tests, where a query counts them.
     pub(super) passed: u64,
     pub(super) job: &'j mut TileJob<'t>,
@@ -106,6 +121,7 @@ impl<'a, 'j, 't, const N: usize> Rasterizer<'a, 'j, 't, N> {
             order,
             storage: storage_of(work.plan),
             crosses_triangles: work.plan.path == TilePath::VisibilityCrossTriangle,
+            counts: PacketRanges::serve(&work.plan.tests),
             passed: 0,
             job,
             scratch,
@@ -126,9 +142,20 @@ impl<'a, 'j, 't, const N: usize> Rasterizer<'a, 'j, 't, N> {
         }
     }
 
-    /// Triangles of one packet, small and large; `id` is the first one's.
-    fn entry(&mut self, number: u32, lanes: u16, mut id: u32) {
-        let packet = &self.work.chunk.triangles[number as usize];
+    /// Triangles that were gathered, the first of which has the id `id`. Returns how many they are.
+    fn gathered(&mut self, gathered: &mut GatheredTriangles, id: u32) -> u32 {
+        let (packet, lanes) = gathered.triangles();
+        if lanes != 0 {
+            self.entry((packet, u32::MAX), lanes, id);
+            self.scratch.statistics.triangles_gathered_in_tiles += u64::from(lanes.count_ones());
+        }
+        gathered.clear();
+        lanes.count_ones()
+    }
+
+    /// Triangles of one packet, small and large; `id` is the first one's. The packet's number is
+    /// asked for where fragments have ids of their own.
+    fn entry(&mut self, (packet, number): (&TrianglePacket, u32), lanes: u16, mut id: u32) {
         let mut small = 0;
         if const { N <= 4 } {
             let tile = (self.work.shape, &self.work.rect);
@@ -138,27 +165,37 @@ impl<'a, 'j, 't, const N: usize> Rasterizer<'a, 'j, 't, N> {
         }
         let large = lanes & !small;
         self.set_up_edges(packet, large);
-        // Small triangles between large ones go together.
+        // Small triangles between large ones go together, and so do large ones that count.
         let first = id;
-        let (mut left, mut run) = (lanes, 0);
+        let (mut left, mut run, mut counting) = (lanes, 0, 0);
         while left != 0 {
             let lane = left.trailing_zeros() as usize;
             left &= left - 1;
-            if small >> lane & 1 == 1 {
-                run |= 1 << lane;
+            let bit = 1 << lane;
+            if small & bit != 0 {
+                self.counting(packet, std::mem::take(&mut counting), (lanes, first));
+                run |= bit;
             } else {
                 self.small(packet, std::mem::take(&mut run), (lanes, first));
-                if let Some(covering) = self.covering(packet, Lane::new(lane)) {
+                let lane = Lane::new(lane);
+                if self.counts && !self.crosses_triangles {
+                    counting |= bit;
+                } else if let Some(covering) = self.covering(packet, lane) {
                     let id = if self.crosses_triangles {
-                        self.number_large(number, lane)
+                        self.number_large(number, lane.get())
                     } else {
                         id
                     };
-                    self.large((packet, lane), &covering, id);
+                    if self.counts {
+                        self.counting(packet, bit, (bit, id));
+                    } else {
+                        self.large((packet, lane.get()), &covering, id);
+                    }
                 }
             }
             id += 1;
         }
+        self.counting(packet, counting, (lanes, first));
         self.small(packet, run, (lanes, first));
     }
 
@@ -189,7 +226,7 @@ impl<'a, 'j, 't, const N: usize> Rasterizer<'a, 'j, 't, N> {
 
     /// The coverage of a large triangle, unless it covers nothing of the tile.
     #[inline(always)]
-    fn covering(&self, packet: &TrianglePacket, lane: Lane) -> Option<TileTriangle<N>> {
+    pub(super) fn covering(&self, packet: &TrianglePacket, lane: Lane) -> Option<TileTriangle<N>> {
         if let Some(found) = self.scratch.visibility.edges.triangle(lane) {
             return found;
         }
@@ -202,7 +239,7 @@ impl<'a, 'j, 't, const N: usize> Rasterizer<'a, 'j, 't, N> {
         self.order == OrderKind::NearestFirst
     }
 
-    fn hiz_query(&self, plane: DepthPlane, front: bool) -> HizQuery<'a, N> {
+    pub(super) fn hiz_query(&self, plane: DepthPlane, front: bool) -> HizQuery<'a, N> {
         let plan = self.work.plan;
         HizQuery {
             tests: &plan.tests,
@@ -233,6 +270,7 @@ impl<'a, 'j, 't, const N: usize> Rasterizer<'a, 'j, 't, N> {
         } = *self.work;
         let plane = DepthPlane::of_lane(packet, lane);
         let front = packet.front >> lane & 1 == 1;
+        let seen = VisibilityTriangle { plane, id, front };
         let in_order = !self.is_any_order();
         // Leave out the blocks where everything is nearer already.
         let mut classes = BlockClasses::of_all(0, 0);
@@ -264,12 +302,6 @@ impl<'a, 'j, 't, const N: usize> Rasterizer<'a, 'j, 't, N> {
         }
         let others = whole & !certain;
         let touched = blocks_of(others, list.items().iter().map(|item| item.packet));
-        let triangle = VisibilityTriangle {
-            plane,
-            id,
-            front,
-            failing: classes.failing,
-        };
         let visibility = &mut self.scratch.visibility;
         let mut single = std::mem::take(&mut visibility.buffer.single);
         let counts = plan.query.is_some().then_some(&mut self.passed);
@@ -281,13 +313,13 @@ impl<'a, 'j, 't, const N: usize> Rasterizer<'a, 'j, 't, N> {
                 single.set(certain, id);
             }
             if plan.tests.writes_depth() {
-                writer.write_depths(level, &triangle, certain);
+                writer.write_depths(level, &seen, certain);
             }
         }
         if touched != 0 {
             single.write_out(level, touched, &mut writer);
             let list = visibility.list.items();
-            writer.triangle(level, &triangle, others, list, in_order);
+            writer.triangle(level, &seen, others, list, in_order);
         }
         visibility.buffer.single = single;
         if plan.tests.writes_depth() {
@@ -298,6 +330,6 @@ impl<'a, 'j, 't, const N: usize> Rasterizer<'a, 'j, 't, N> {
 }
 
 /// Blocks of packets and whole ones, one bit each.
-fn blocks_of(blocks: u16, packets: impl Iterator<Item = u16>) -> u16 {
+pub(super) fn blocks_of(blocks: u16, packets: impl Iterator<Item = u16>) -> u16 {
     packets.fold(blocks, |all, packet| all | 1 << (packet >> 4 & 15))
 }

@@ -12,6 +12,7 @@ use crate::depth_format::StoredDepth;
 use crate::fragment::interpolate::{DepthPlane, PlaneBlock, evaluate};
 use crate::per_sample::compare::prefers_less;
 use crate::per_sample::sample_tests::{SampleTests, StoredSamples};
+use crate::per_sample::stencil::FaceLanes;
 use crate::raster::{Covered, MAX_PACKETS, SampleSet, TileShape, packet_origin};
 use crate::tile_pass::TileJob;
 use estampe_simd::{
@@ -25,9 +26,6 @@ pub(super) struct VisibilityTriangle {
     pub(super) plane: DepthPlane,
     pub(super) id: u32,
     pub(super) front: bool,
-    /// Blocks in which all of it fails the depth test, one bit each; only with tests of more than
-    /// depth.
-    pub(super) failing: u16,
 }
 
 impl VisibilityTriangle {
@@ -164,21 +162,28 @@ impl<'a, const N: usize> VisibilityWriter<'a, N> {
         blocks: u16,
         list: &[Covered<N>],
     ) {
-        self.blocks::<S, KIND>(s, triangle, blocks);
+        // The stencil test of the triangle's face.
+        let face = match &self.tests.stencil {
+            Some(test) if KIND == test_kind::IN_ORDER => Some(test.face(triangle.front).lanes(s)),
+            _ => None,
+        };
+        let face = face.as_ref();
+        self.blocks::<S, KIND>(s, triangle, face, blocks);
         let plane = &triangle.plane;
         let offsets = self.samples.offsets();
         for item in list {
-            if KIND == test_kind::IN_ORDER && triangle.failing >> (item.packet >> 4) & 1 == 1 {
-                self.failing_packet(s, usize::from(item.packet), &item.masks, triangle.front);
-                continue;
-            }
             let (x, y) = packet_origin(u32::from(item.packet));
             let pixel = [self.tile.x + x, self.tile.y + y];
             for (sample, &offset) in offsets.iter().enumerate().take(self.samples.count()) {
                 let distances = plane.origin.distances(s, pixel, offset);
-                let z = self.tests.stored.of(s, evaluate(s, &plane.z, distances));
+                let depth = evaluate(s, &plane.z, distances);
+                let z = if KIND == test_kind::IN_ORDER {
+                    self.tests.comparable(s, depth)
+                } else {
+                    self.tests.stored.of(s, depth)
+                };
                 let at = [usize::from(item.packet), sample];
-                self.packet::<S, KIND>(s, at, z, item.masks[sample], triangle);
+                self.packet::<S, KIND>(s, at, z, item.masks[sample], (triangle, face));
             }
         }
     }
@@ -189,6 +194,7 @@ impl<'a, const N: usize> VisibilityWriter<'a, N> {
         &mut self,
         s: S,
         triangle: &VisibilityTriangle,
+        face: Option<&FaceLanes<S>>,
         mut blocks: u16,
     ) {
         if blocks == 0 {
@@ -198,35 +204,34 @@ impl<'a, const N: usize> VisibilityWriter<'a, N> {
         while blocks != 0 {
             let block = blocks.trailing_zeros();
             blocks &= blocks - 1;
-            if KIND == test_kind::IN_ORDER && triangle.failing >> block & 1 == 1 {
-                for packet in block as usize * LANES..(block as usize + 1) * LANES {
-                    self.failing_packet(s, packet, &self.samples.whole(), triangle.front);
-                }
-                continue;
-            }
             let offsets = self.samples.offsets();
             for (sample, &offset) in offsets.iter().enumerate().take(self.samples.count()) {
                 let depths = self.block_depths(s, &triangle.plane, block, offset);
                 for packet in 0..LANES {
-                    let z = block_depth(s, self.tests.stored, &depths, packet, needs_clamp);
+                    let z = if KIND == test_kind::IN_ORDER {
+                        self.tests.comparable(s, depths.at(packet))
+                    } else {
+                        block_depth(s, self.tests.stored, &depths, packet, needs_clamp)
+                    };
                     let at = [block as usize * LANES + packet, sample];
-                    self.packet::<S, KIND>(s, at, z, u16::MAX, triangle);
+                    self.packet::<S, KIND>(s, at, z, u16::MAX, (triangle, face));
                 }
             }
         }
     }
 
-    /// Tests a packet of which no sample passes the depth test.
+    /// Adds a triangle that changes stencil values in a list of packets, of which no sample passes
+    /// the depth test. `face` is its face's stencil test.
     #[inline(always)]
-    fn failing_packet<S: Lanes>(&mut self, s: S, packet: usize, masks: &[u16; N], front: bool) {
-        let front = if front { u16::MAX } else { 0 };
-        for (sample, &lanes) in masks.iter().enumerate().take(self.samples.count()) {
-            let line = self.line_of(packet, sample);
-            let stored = StoredSamples {
-                depth: self.depth.get_mut(line),
-                stencil: self.stencil.get_mut(line),
-            };
-            self.tests.run_failing(s, lanes, front, stored);
+    pub(super) fn failing<S: Lanes>(&mut self, s: S, face: &FaceLanes<S>, list: &[Covered<N>]) {
+        for item in list {
+            for (sample, &lanes) in item.masks.iter().enumerate().take(self.samples.count()) {
+                let line = self.line_of(usize::from(item.packet), sample);
+                if let Some(stencil) = self.stencil.get_mut(line) {
+                    let stored = (self.depth.get(line), stencil);
+                    self.tests.run_failing(s, lanes, face, stored);
+                }
+            }
         }
     }
 
@@ -289,7 +294,7 @@ impl<'a, const N: usize> VisibilityWriter<'a, N> {
         [packet, sample]: [usize; 2],
         new: f32x16<S>,
         lanes: u16,
-        triangle: &VisibilityTriangle,
+        (triangle, face): (&VisibilityTriangle, Option<&FaceLanes<S>>),
     ) {
         let line = self.line_of(packet, sample);
         let unresolved = &mut self.unresolved[packet % MAX_PACKETS][sample];
@@ -316,8 +321,7 @@ impl<'a, const N: usize> VisibilityWriter<'a, N> {
                     depth: stored,
                     stencil: self.stencil.get_mut(line),
                 };
-                let front = if triangle.front { u16::MAX } else { 0 };
-                let passed = self.tests.run(s, new, lanes, front, stored);
+                let passed = self.tests.run_face(s, new, lanes, face, stored);
                 if let Some(count) = &mut self.passed {
                     **count += u64::from(passed.count_ones());
                 }
