@@ -59,8 +59,8 @@ impl RunResults {
     }
 }
 
-/// The fastest of several rounds. Rounds of both renderers are in turn, and other work only ever makes
-/// a frame slower, so the fastest frames are those that compare.
+/// The fastest of several rounds. Rounds of both renderers are in turn, and other work only ever
+/// makes a frame slower, so the fastest frames are those that compare.
 #[must_use]
 pub fn fastest(runs: &[RunResults], scene: &str, size: FrameSize) -> Option<Measured> {
     runs.iter()

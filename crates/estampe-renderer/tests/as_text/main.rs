@@ -70,7 +70,8 @@ struct Glsl {
 /// Devices of every level, by 1 and 3 threads, with machine code and without.
 fn devices() -> impl Iterator<Item = (String, Device)> {
     let kinds = Level::all_available().into_iter().flat_map(|level| {
-        // There is no machine code for the scalar level, which takes as long as the others together.
+        // There is no machine code for the scalar level, and it takes as long as the others
+        // together.
         let kinds = [(1, false), (3, true)].into_iter();
         let kinds = kinds.filter(move |(_, interprets)| *interprets || !level.is_scalar());
         kinds.map(move |(threads, interprets_shaders)| (level, threads, interprets_shaders))

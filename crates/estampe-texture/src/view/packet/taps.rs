@@ -188,7 +188,7 @@ impl<S: SimdLanes> BlockLevel<'_, S> {
                 return false;
             };
             let v = f32x16::load_array_ref(s, &v.0);
-            are_blocks = are_blocks & v.simd_eq(s.first_column(v));
+            are_blocks &= v.simd_eq(s.first_column(v));
             let Some(place) = self.place::<CLAMPS>(s, [u, v]) else {
                 return false;
             };
