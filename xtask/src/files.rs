@@ -31,7 +31,6 @@ const UNSAFE_CRATES: &[(&str, &[&str])] = &[
             "crates/estampe-simd/src/gather/fours.rs",
             "crates/estampe-simd/src/gather/mod.rs",
             "crates/estampe-simd/src/gather/pairs.rs",
-            "crates/estampe-simd/src/gather/prefetch.rs",
             "crates/estampe-simd/src/gather/single.rs",
             "crates/estampe-simd/src/gather/squares.rs",
         ],

@@ -25,6 +25,11 @@ pub trait Lanes: Simd {
         work()
     }
 
+    /// Begins to bring a value to the cache, where the level has an instruction for that; waits for
+    /// nothing and changes nothing.
+    #[inline(always)]
+    fn prefetch<T>(self, _value: &T) {}
+
     /// `a < b ? a : b` in each lane: `b` if either is NaN, and of two zeros `b`.
     #[inline(always)]
     fn min_f32(self, a: f32x16<Self>, b: f32x16<Self>) -> f32x16<Self> {
@@ -343,6 +348,10 @@ mod x86 {
             work()
         }
         #[inline(always)]
+        fn prefetch<T>(self, value: &T) {
+            crate::prefetch::sse2(self, value);
+        }
+        #[inline(always)]
         fn min_f32(self, a: f32x16<Self>, b: f32x16<Self>) -> f32x16<Self> {
             a.min(b)
         }
@@ -389,6 +398,10 @@ mod x86 {
         #[inline(always)]
         fn as_level(self) -> Level {
             Level::Avx2(self)
+        }
+        #[inline(always)]
+        fn prefetch<T>(self, value: &T) {
+            crate::prefetch::avx2(self, value);
         }
         #[inline(always)]
         fn min_f32(self, a: f32x16<Self>, b: f32x16<Self>) -> f32x16<Self> {
@@ -471,6 +484,10 @@ mod x86 {
         #[inline(always)]
         fn as_level(self) -> Level {
             Level::Avx512(self)
+        }
+        #[inline(always)]
+        fn prefetch<T>(self, value: &T) {
+            crate::prefetch::avx512(self, value);
         }
         #[inline(always)]
         fn min_f32(self, a: f32x16<Self>, b: f32x16<Self>) -> f32x16<Self> {

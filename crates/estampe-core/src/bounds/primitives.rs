@@ -160,8 +160,9 @@ pub(crate) struct WindowVertex {
     pub(crate) vertex: VertexRef,
 }
 
-/// A line, from its first to its second end.
+/// A line, from its first to its second end: a cache line.
 #[derive(Debug, Clone, Copy)]
+#[repr(align(64))]
 pub(crate) struct LinePrimitive {
     pub(crate) ends: [WindowVertex; 2],
     pub(crate) provoking: VertexRef,
@@ -170,6 +171,60 @@ pub(crate) struct LinePrimitive {
     /// fragments of its strip before the line, modulo the pattern's length; for rectangles in
     /// 1/65536 pixel.
     pub(crate) stipple: u32,
+}
+
+/// Sixteen lines, or halves of lines.
+#[derive(Debug, Clone)]
+#[repr(C, align(64))]
+pub(crate) struct LinePacket {
+    /// Of both ends: snapped positions in 1/256 pixel, depth, 1/w, references to varyings.
+    pub(crate) x: [[i32; LANES]; 2],
+    pub(crate) y: [[i32; LANES]; 2],
+    pub(crate) z: [[f32; LANES]; 2],
+    pub(crate) iw: [[f32; LANES]; 2],
+    pub(crate) vertex: [[VertexRef; LANES]; 2],
+    /// The vertex that flat varyings come from.
+    pub(crate) provoking: [VertexRef; LANES],
+    /// Bit by lane: it belongs to something that faces the viewer.
+    pub(crate) front: u16,
+    /// The lanes that are a half of a line, and of these the second halves.
+    pub(crate) halves: u16,
+    pub(crate) seconds: u16,
+}
+
+impl LinePacket {
+    pub(crate) const EMPTY: Self = Self {
+        x: [[0; LANES]; 2],
+        y: [[0; LANES]; 2],
+        z: [[0.0; LANES]; 2],
+        iw: [[0.0; LANES]; 2],
+        vertex: [[VertexRef(0); LANES]; 2],
+        provoking: [VertexRef(0); LANES],
+        front: 0,
+        halves: 0,
+        seconds: 0,
+    };
+
+    /// Sets a lane to a line, or to the half of it that has a number.
+    #[inline(always)]
+    pub(crate) fn set(&mut self, lane: usize, line: &LinePrimitive, half: Option<usize>) {
+        for (number, end) in line.ends.iter().enumerate() {
+            self.x[number][lane] = end.x;
+            self.y[number][lane] = end.y;
+            self.z[number][lane] = end.z;
+            self.iw[number][lane] = end.iw;
+            self.vertex[number][lane] = end.vertex;
+        }
+        self.provoking[lane] = line.provoking;
+        let bit = 1 << lane;
+        for (mask, is_in) in [
+            (&mut self.front, line.front),
+            (&mut self.halves, half.is_some()),
+            (&mut self.seconds, half == Some(1)),
+        ] {
+            *mask = *mask & !bit | u16::from(is_in) << lane;
+        }
+    }
 }
 
 /// A point.

@@ -211,53 +211,11 @@ impl CrossPlanes {
         lanes: u16,
         source: &VaryingSource<'_>,
     ) {
-        let n = source.modes.len();
-        let wanted = s.mask_from_bits(lanes);
-        let lane = lanes.trailing_zeros() as usize % LANES;
         for (rows, vertices) in self.corners.iter_mut().zip(&packet.vertex) {
-            // Lanes that are not wanted repeat one that is: theirs may be far away, or those of
-            // another draw.
-            let one = <u32x16<S> as SimdBase<S>>::splat(s, vertices[lane].0);
-            let all = u32x16::load_array(s, vertices.map(|vertex| vertex.0));
-            let vertices = wanted.select(all, one).to_array();
-            if n < 2 {
-                for row in rows {
-                    for (to, vertex) in row.0.iter_mut().zip(vertices) {
-                        *to = source.of(VertexRef(vertex))[0];
-                    }
-                }
-            } else {
-                let mut first = 0;
-                while first < n {
-                    // The last four columns overlap those before them.
-                    let at = first.min(n.saturating_sub(4));
-                    let columns = source.four_of(s, &vertices, at);
-                    for (row, column) in rows[at..].iter_mut().zip(columns) {
-                        column.store_array(&mut row.0);
-                    }
-                    first += 4;
-                }
-            }
+            fetch_rows(s, rows, vertices, lanes, source);
         }
         if source.modes.contains(&Interpolation::Flat) {
-            self.fetch_flat(packet, lanes, source);
-        }
-    }
-
-    /// Flat varyings are the provoking vertex's.
-    #[inline(never)]
-    fn fetch_flat(&mut self, packet: &TrianglePacket, lanes: u16, source: &VaryingSource<'_>) {
-        let mut left = lanes;
-        while left != 0 {
-            let lane = left.trailing_zeros() as usize % LANES;
-            left &= left - 1;
-            let values = source.of(packet.provoking[lane]);
-            let rows = self.corners[0].iter_mut().zip(values);
-            for ((row, value), mode) in rows.zip(source.modes) {
-                if *mode == Interpolation::Flat {
-                    row.0[lane] = *value;
-                }
-            }
+            fetch_flat(&mut self.corners[0], &packet.provoking, lanes, source);
         }
     }
 
@@ -349,9 +307,68 @@ impl CrossPlanes {
     }
 }
 
-/// A value of the lanes' triangles.
+/// Transposes the varyings of the vertices of some lanes into rows.
 #[inline(always)]
-fn of_lanes<S: Lanes>(s: S, values: &Packet<f32>, lane: u32x16<S>) -> f32x16<S> {
+pub(super) fn fetch_rows<S: Lanes>(
+    s: S,
+    rows: &mut [Packet<f32>],
+    vertices: &[VertexRef; LANES],
+    lanes: u16,
+    source: &VaryingSource<'_>,
+) {
+    let n = source.modes.len();
+    // Lanes that are not wanted repeat one that is: theirs may be far away, or those of another
+    // draw.
+    let wanted = s.mask_from_bits(lanes);
+    let lane = lanes.trailing_zeros() as usize % LANES;
+    let one = <u32x16<S> as SimdBase<S>>::splat(s, vertices[lane].0);
+    let all = u32x16::load_array(s, vertices.map(|vertex| vertex.0));
+    let vertices = wanted.select(all, one).to_array();
+    if n < 2 {
+        for row in rows {
+            for (to, vertex) in row.0.iter_mut().zip(vertices) {
+                *to = source.of(VertexRef(vertex))[0];
+            }
+        }
+        return;
+    }
+    let mut first = 0;
+    while first < n {
+        // The last four columns overlap those before them.
+        let at = first.min(n.saturating_sub(4));
+        let columns = source.four_of(s, &vertices, at);
+        for (row, column) in rows[at..].iter_mut().zip(columns) {
+            column.store_array(&mut row.0);
+        }
+        first += 4;
+    }
+}
+
+/// Flat varyings are the provoking vertex's.
+#[inline(never)]
+pub(super) fn fetch_flat(
+    rows: &mut [Packet<f32>],
+    provoking: &[VertexRef; LANES],
+    lanes: u16,
+    source: &VaryingSource<'_>,
+) {
+    let mut left = lanes;
+    while left != 0 {
+        let lane = left.trailing_zeros() as usize % LANES;
+        left &= left - 1;
+        let values = source.of(provoking[lane]);
+        let rows = rows.iter_mut().zip(values);
+        for ((row, value), mode) in rows.zip(source.modes) {
+            if *mode == Interpolation::Flat {
+                row.0[lane] = *value;
+            }
+        }
+    }
+}
+
+/// A value of the lanes' primitives.
+#[inline(always)]
+pub(super) fn of_lanes<S: Lanes>(s: S, values: &Packet<f32>, lane: u32x16<S>) -> f32x16<S> {
     s.permute_f32(f32x16::load_array_ref(s, &values.0), lane)
 }
 

@@ -18,4 +18,6 @@ mod centroid;
 
 pub(crate) mod cross_triangle;
 
+pub(crate) mod cross_line;
+
 pub(crate) mod queue;

@@ -122,14 +122,22 @@ impl ElementSource<'_> {
             }
             return;
         }
+        let base_of_indices = base
+            .wrapping_add_signed(self.base_vertex)
+            .wrapping_sub(self.first_vertex);
         if let Some(out) = out.first_chunk_mut::<LANES>()
             && let Some(indices) = self.listed_indices(first)
         {
-            let base = base
-                .wrapping_add_signed(self.base_vertex)
-                .wrapping_sub(self.first_vertex);
             for (vertex, index) in out.as_flattened_mut().iter_mut().zip(indices) {
-                *vertex = index.wrapping_add(base);
+                *vertex = index.wrapping_add(base_of_indices);
+            }
+            return;
+        }
+        if let Some(indices) = self.indices_of_lines(first, out.len()) {
+            for ([a, b, provoking], [from, to]) in out.iter_mut().zip(indices) {
+                *a = from.wrapping_add(base_of_indices);
+                *b = to.wrapping_add(base_of_indices);
+                *provoking = *a;
             }
             return;
         }
@@ -178,6 +186,22 @@ impl ElementSource<'_> {
             }
             IndexFormat::Uint8 => None,
         }
+    }
+
+    /// The indices of so many lines of a list, if that is what is drawn, its first vertices
+    /// provoke, and the index buffer holds all of them as words.
+    #[inline(always)]
+    fn indices_of_lines(&self, first: u32, count: usize) -> Option<&[[u32; 2]]> {
+        let (
+            PrimitiveTopology::LineList,
+            ProvokingVertex::First,
+            Some((buffer, IndexFormat::Uint32)),
+        ) = (self.topology, self.provoking, self.indices)
+        else {
+            return None;
+        };
+        let at = self.first_element as usize + first as usize * 2;
+        buffer.words().get(at..)?.as_chunks().0.get(..count)
     }
 
     #[inline(always)]

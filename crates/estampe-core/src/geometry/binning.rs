@@ -154,6 +154,7 @@ fn bin_lane(plan: &GeometryPlan, triangle: PacketLane<'_>, range: TileRange, bin
 }
 
 /// Adds a line to a chunk; its pixels begin no farther from it than the line style's reach.
+#[inline(never)]
 pub(crate) fn push_line(plan: &GeometryPlan, line: LinePrimitive, chunk: &mut Chunk) {
     let [a, b] = &line.ends;
     let range = TileRange::new(
@@ -164,6 +165,73 @@ pub(crate) fn push_line(plan: &GeometryPlan, line: LinePrimitive, chunk: &mut Ch
     let entry = BinEntry::Line(number(chunk.lines.len()));
     chunk.lines.push(line);
     push_range(plan, range, entry, chunk);
+}
+
+/// The tiles of sixteen lines.
+pub(crate) struct LineTiles {
+    /// The lines that touch any, and those that touch one.
+    pub(crate) any: u16,
+    pub(crate) one: u16,
+    /// Column and row of the first tile.
+    first: [[i32; LANES]; 2],
+}
+
+impl LineTiles {
+    /// Those of lines whose ends have these x and y.
+    #[inline(always)]
+    pub(crate) fn new<S: Lanes>(
+        s: S,
+        plan: &GeometryPlan,
+        ends: [[i32x16<S>; 2]; 2],
+        reach: i32,
+    ) -> Self {
+        let splat = |value: i32| <i32x16<S> as SimdBase<S>>::splat(s, value);
+        let (rect, log2) = (plan.rect, plan.grid.tile_log2());
+        let limits = [[rect.x0, rect.x1 - 1], [rect.y0, rect.y1 - 1]];
+        let (mut misses, mut spans) = (splat(0), splat(0));
+        let mut first = [[0; LANES]; 2];
+        for ((to, [a, b]), [low, high]) in first.iter_mut().zip(ends).zip(limits) {
+            let from = ((a.min(b) - reach) >> 8).max(splat(low));
+            let last = ((a.max(b) + reach) >> 8).min(splat(high));
+            // The sign bit is set if there is no pixel.
+            misses |= last - from;
+            spans |= (from >> log2) ^ (last >> log2);
+            (from >> log2).store_array(to);
+        }
+        let any = !s.sign_bits(misses);
+        Self {
+            any,
+            one: any & s.bits_of_mask(spans.simd_eq(splat(0))),
+            first,
+        }
+    }
+
+    /// The only tile of the line in a lane.
+    #[inline(always)]
+    fn only(&self, plan: &GeometryPlan, lane: Lane) -> u32 {
+        let [column, row] = [lane.of(&self.first[0]), lane.of(&self.first[1])];
+        plan.grid
+            .tile_at(column.cast_unsigned(), row.cast_unsigned())
+    }
+}
+
+/// Adds the line in a lane, which touches some tile, to a chunk.
+#[inline(always)]
+pub(crate) fn push_line_of(
+    plan: &GeometryPlan,
+    tiles: &LineTiles,
+    lane: Lane,
+    line: LinePrimitive,
+    chunk: &mut Chunk,
+) {
+    if !lane.is_in(tiles.one) {
+        push_line(plan, line, chunk);
+        return;
+    }
+    let entry = BinEntry::Line(number(chunk.lines.len()));
+    chunk.lines.push(line);
+    chunk.statistics.primitives_binned += 1;
+    chunk.bins.push(tiles.only(plan, lane), entry);
 }
 
 /// Adds a point to a chunk.

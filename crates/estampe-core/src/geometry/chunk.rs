@@ -8,9 +8,9 @@ use super::lines::LineWalk;
 use super::run::RunWork;
 use super::setup::{Setup, SetupScratch};
 use super::{filled, points, polygon_mode};
-use crate::bounds::chunk::Chunk;
+use crate::bounds::chunk::{Chunk, number};
 use crate::pipeline::primitive_kind::PrimitiveKind;
-use estampe_simd::{LANES, dispatch};
+use estampe_simd::dispatch;
 
 /// Memory of one worker.
 #[derive(Debug, Default)]
@@ -66,23 +66,30 @@ pub(crate) fn add_part(
     if work.plan.fills_triangles() {
         dispatch!(work.level, s => filled::draw(s, work, &mut setup, groups, clip));
     } else {
-        add_lines_and_points(work, &mut setup, clip);
+        add_lines_and_points(work, &mut setup, &mut groups[0], clip);
     }
     setup.finish(neighbours.joins_next);
 }
 
-/// Adds lines, points, and triangles that are drawn as these, one by one.
-fn add_lines_and_points(work: &RunWork<'_>, setup: &mut Setup<'_>, clip: &mut ClipDetour) {
+/// Adds lines, points, and triangles that are drawn as these.
+fn add_lines_and_points(
+    work: &RunWork<'_>,
+    setup: &mut Setup<'_>,
+    group: &mut TriangleGroup,
+    clip: &mut ClipDetour,
+) {
     let mut primitives = PrimitiveGroups::new(&work.elements, work.instance, work.primitives);
     let mut lines = LineWalk::default();
-    let mut corners = [[0; 3]; LANES];
-    while let Some(group) = primitives.next_of_instance(&mut corners) {
-        let corners = &corners[..group.count];
+    while let Some(some) = primitives.next_of_instance(&mut group.vertices) {
+        let corners = &group.vertices[..some.count];
         match work.plan.kind {
             PrimitiveKind::Triangles => {
                 polygon_mode::draw(work, corners, &mut lines, setup, clip);
             }
-            PrimitiveKind::Lines => lines.draw(work, group.first, corners, setup, clip),
+            PrimitiveKind::Lines => {
+                let numbers = [some.first, number(some.count)];
+                lines.draw(work, numbers, group, setup, clip);
+            }
             PrimitiveKind::Points => points::draw(work, corners, setup, clip),
         }
     }

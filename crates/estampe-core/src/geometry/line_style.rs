@@ -54,6 +54,12 @@ impl LineStyle {
         }
     }
 
+    /// Returns true if lines are neither smooth nor stippled.
+    #[inline]
+    pub(crate) fn is_plain(&self) -> bool {
+        self.stipple.is_none() && !self.is_smooth()
+    }
+
     /// Returns true if alpha is multiplied by the covered part of the pixel.
     pub(crate) fn is_smooth(&self) -> bool {
         matches!(self.shape, LineShape::Rectangle { smooth: true, .. })

@@ -1,10 +1,15 @@
 //! Lines: from assembled vertices to line primitives, clipped where they leave the view volume.
+//!
+//! The tiles of lines are found sixteen at a time; what is stored of a line is one cache line.
 
-use super::binning::push_line;
+use super::binning::{LineTiles, push_line, push_line_of};
 use super::clip_detour::ClipDetour;
+use super::cull::{TriangleGroup, WindowTriangles};
 use super::run::RunWork;
 use super::setup::Setup;
+use super::shaded_vertices::NEEDS_CLIPPING;
 use crate::bounds::primitives::{LinePrimitive, VertexRef, WindowVertex};
+use estampe_simd::{LANES, Lane, Lanes, SimdBase, dispatch, i32x16};
 
 /// The values of a line or point besides its vertices: its own, or those of the triangle that it
 /// outlines.
@@ -47,15 +52,21 @@ pub(super) struct LineWalk {
 }
 
 impl LineWalk {
-    /// Draws lines of an instance, the first of which has this number there.
+    /// Draws so many lines of an instance, the first of which has this number there.
     pub(super) fn draw(
         &mut self,
         work: &RunWork<'_>,
-        first: u32,
-        lines: &[[u32; 3]],
+        [first, count]: [u32; 2],
+        group: &mut TriangleGroup,
         setup: &mut Setup<'_>,
         clip: &mut ClipDetour,
     ) {
+        let culls = work.source.pipeline.interface().cull_distances != 0;
+        if !culls && work.plan.line_style.stipple.is_none() {
+            dispatch!(work.level, s => self.draw_lanes(s, work, (group, count), setup, clip));
+            return;
+        }
+        let lines = group.vertices.iter().take(count as usize);
         for (number, &[a, b, provoking]) in (first..).zip(lines) {
             if begins_strip(work, number) {
                 self.restart();
@@ -63,6 +74,48 @@ impl LineWalk {
             if !clip.is_culled_by_distance(work, &[a, b]) {
                 self.draw_line(work, [a, b], Outline::own(provoking), setup, clip);
             }
+        }
+    }
+
+    /// Draws lines without pattern and cull distances.
+    #[inline(always)]
+    fn draw_lanes<S: Lanes>(
+        &mut self,
+        s: S,
+        work: &RunWork<'_>,
+        (group, count): (&mut TriangleGroup, u32),
+        setup: &mut Setup<'_>,
+        clip: &mut ClipDetour,
+    ) {
+        // Lanes beyond repeat the first line: they hold vertices of other draws.
+        let first = group.vertices[0];
+        group.vertices[(count as usize).min(LANES)..].fill(first);
+        group.read_positions(work.vertices.window);
+        let WindowTriangles { x, y } = WindowTriangles::new(s, group);
+        let ends = [[x[0], x[1]], [y[0], y[1]]];
+        let tiles = LineTiles::new(s, work.plan, ends, work.plan.line_style.reach());
+        let needs_clipping = <i32x16<S> as SimdBase<S>>::splat(s, NEEDS_CLIPPING);
+        let is_clipped = x[0].simd_eq(needs_clipping) | x[1].simd_eq(needs_clipping);
+        let clipped = s.bits_of_mask(is_clipped);
+        let used = u16::MAX >> (LANES - (count as usize).min(LANES));
+        for lane in Lane::all_of((tiles.any | clipped) & used) {
+            let [a, b, provoking] = lane.of(&group.vertices);
+            let outline = Outline::own(provoking);
+            let ends = [
+                work.vertices.window_vertex(a),
+                work.vertices.window_vertex(b),
+            ];
+            let [Some(a_in_window), Some(b_in_window)] = ends else {
+                self.draw_line(work, [a, b], outline, setup, clip);
+                continue;
+            };
+            let line = LinePrimitive {
+                ends: [a_in_window, b_in_window],
+                provoking: outline.provoking,
+                front: outline.front,
+                stipple: 0,
+            };
+            push_line_of(work.plan, &tiles, lane, line, setup.chunk);
         }
     }
 

@@ -23,6 +23,8 @@ mod walk;
 
 pub(crate) mod small;
 
+pub(crate) mod small_lines;
+
 pub(crate) mod pixel_list;
 
 pub(crate) mod packet_edges;

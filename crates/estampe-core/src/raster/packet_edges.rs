@@ -14,7 +14,7 @@
 //! and is the one that was computed, and elsewhere its sign tells on which side of the edge all of
 //! the tile is.
 
-use super::small::{Corners, EdgeLanes, edges};
+use super::small::{Corners, EdgeFrom, edges};
 use super::triangle::{Edge, TileTriangle};
 use super::{SampleSet, TileShape};
 use crate::bounds::pixel_rect::PixelRect;
@@ -97,9 +97,9 @@ impl<const N: usize> PacketEdges<N> {
         let corner = [splat(tile.x << 8), splat(tile.y << 8)];
         let positions = samples.subpixels();
         for (number, edge) in edges(s, packet, &corners, corner).into_iter().enumerate() {
-            let EdgeLanes { a, b, bias, .. } = edge;
-            let pixels = [edge.from[0] >> 8, edge.from[1] >> 8];
-            let rest = [edge.from[0] & splat(255), edge.from[1] & splat(255)];
+            let EdgeFrom { a, b, way, bias } = edge;
+            let pixels = [way[0] >> 8, way[1] >> 8];
+            let rest = [way[0] & splat(255), way[1] & splat(255)];
             let whole = a * pixels[0] + b * pixels[1];
             let part = a * rest[0] + b * rest[1] + bias;
             let about = f32x16::float_from(a) * f32x16::float_from(pixels[0])

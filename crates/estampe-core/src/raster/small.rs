@@ -81,7 +81,19 @@ impl Parts {
     }
 }
 
-/// Small triangles of one packet inside a tile.
+/// The pixels of sixteen boxes that may be covered.
+pub(super) struct BoxPixels<S: Lanes> {
+    /// Columns and rows, less one.
+    pub(super) across: i32x16<S>,
+    pub(super) down: i32x16<S>,
+    /// The columns and rows at the beginning that are left out.
+    pub(super) before: i32x16<S>,
+    pub(super) above: i32x16<S>,
+    /// The boxes that have pixels.
+    pub(super) among: mask32x16<S>,
+}
+
+/// Small triangles of one packet inside a tile, or [small lines](super::small_lines).
 #[derive(Debug, Clone)]
 #[repr(C, align(64))]
 pub(crate) struct SmallTriangles<const N: usize> {
@@ -177,20 +189,52 @@ impl<const N: usize> SmallTriangles<N> {
         down = (down - below).min(splat(SIDE - 1));
         let is_empty = is_empty | across.simd_lt(splat(0)) | down.simd_lt(splat(0));
         let among = s.mask_from_bits(small) & !is_empty;
-        let (columns, rows) = (largest(s, across, among), largest(s, down, among));
 
         let [first_x, first_y] = positions[0];
         let place = [(x_first << 8) + first_x, (y_first << 8) + first_y];
-        let edges = edges(s, packet, &corners, place);
-        // What a pixel further on adds.
-        let [to_right, below] = [
-            [edges[0].a << 8, edges[1].a << 8, edges[2].a << 8],
-            [edges[0].b << 8, edges[1].b << 8, edges[2].b << 8],
-        ];
-        // Distances from the planes' origin are exact: multiples of 1/256 below 2¹⁶.
-        let from_x = f32x16::float_from(place[0] - x0) * (1.0 / 256.0);
-        let from_y = f32x16::float_from(place[1] - y0) * (1.0 / 256.0);
+        let [first, second, third] = edges(s, packet, &corners, place);
+        let edges = [first.at_point(), second.at_point(), third.at_point()];
+        let pixels = BoxPixels {
+            across,
+            down,
+            before,
+            above,
+            among,
+        };
+        self.cover_pixels(s, &edges, &pixels, positions);
+        let offsets = [place[0] - x0, place[1] - y0];
+        self.set_places([x_first - splat(tile.x), y_first - splat(tile.y)], offsets);
+        small
+    }
 
+    /// Covers the pixels of sixteen boxes by the edges that hold in each, at the samples'
+    /// positions. The edges' values are those at the first sample of each box's first pixel.
+    #[inline(always)]
+    pub(super) fn cover_pixels<S: Lanes, const EDGES: usize>(
+        &mut self,
+        s: S,
+        edges: &[EdgeLanes<S>; EDGES],
+        pixels: &BoxPixels<S>,
+        positions: [[i32; 2]; N],
+    ) {
+        let splat = |value: i32| <i32x16<S> as SimdBase<S>>::splat(s, value);
+        let BoxPixels {
+            across,
+            down,
+            before,
+            above,
+            among,
+        } = *pixels;
+        let (columns, rows) = (largest(s, across, among), largest(s, down, among));
+        // What a pixel further on adds.
+        let (mut to_right, mut below) = ([splat(0); EDGES], [splat(0); EDGES]);
+        let mut first = [splat(0); EDGES];
+        for (number, edge) in edges.iter().enumerate() {
+            to_right[number] = edge.a << 8;
+            below[number] = edge.b << 8;
+            first[number] = edge.value;
+        }
+        let [first_x, first_y] = positions[0];
         // The columns of each box, and with them the lanes that have a row.
         let mut inside_box = splat(0);
         for column in 0..columns {
@@ -200,9 +244,9 @@ impl<const N: usize> SmallTriangles<N> {
         for (covered, [x, y]) in self.covered.iter_mut().zip(positions) {
             let [x, y] = [x - first_x, y - first_y];
             // The rows of a sample: the edges at its place in the first pixel, and down from there.
-            let mut row_edges = edges.map(|edge| edge.value);
+            let mut row_edges = first;
             if const { N > 1 } {
-                for (value, edge) in row_edges.iter_mut().zip(&edges) {
+                for (value, edge) in row_edges.iter_mut().zip(edges) {
                     *value += edge.a * x + edge.b * y;
                 }
             }
@@ -212,7 +256,11 @@ impl<const N: usize> SmallTriangles<N> {
                 let mut of_row = splat(0);
                 for column in 0..columns {
                     // Outside an edge the sign bit is set.
-                    let outside = (values[0] | values[1] | values[2]) >> 31;
+                    let mut outside = values[0];
+                    for value in &values[1..] {
+                        outside |= *value;
+                    }
+                    let outside = outside >> 31;
                     of_row |= !outside & splat(1 << column);
                     for (value, step) in values.iter_mut().zip(to_right) {
                         *value += step;
@@ -231,12 +279,18 @@ impl<const N: usize> SmallTriangles<N> {
             lower.store_array(&mut covered[1]);
         }
         self.rows = rows as usize;
-        let first = (x_first - splat(tile.x)) | ((y_first - splat(tile.y)) << 16);
-        let first: u32x16<S> = first.bitcast();
+    }
+
+    /// Notes where the boxes are in the tile, and how far, in 1/256 pixel, the first samples of
+    /// their first pixels are from the origins.
+    #[inline(always)]
+    pub(super) fn set_places<S: Lanes>(&mut self, [x, y]: [i32x16<S>; 2], from: [i32x16<S>; 2]) {
+        let first: u32x16<S> = (x | (y << 16)).bitcast();
         first.store_array(&mut self.first);
-        from_x.store_array(&mut self.from_x);
-        from_y.store_array(&mut self.from_y);
-        small
+        // Distances are exact: multiples of 1/256 below 2¹⁶.
+        let [from_x, from_y] = from;
+        (f32x16::float_from(from_x) * (1.0 / 256.0)).store_array(&mut self.from_x);
+        (f32x16::float_from(from_y) * (1.0 / 256.0)).store_array(&mut self.from_y);
     }
 
     /// Lists the pixels of the triangles in `lanes` of which one sample is covered.
@@ -391,7 +445,7 @@ fn spread<S: Lanes>(s: S, v: u32x16<S>) -> u32x16<S> {
 
 /// The least and the greatest.
 #[inline(always)]
-fn ends<const N: usize>(of: [i32; N]) -> [i32; 2] {
+pub(super) fn ends<const N: usize>(of: [i32; N]) -> [i32; 2] {
     let first = [of[0]; 2];
     of.iter()
         .fold(first, |[least, most], at| [least.min(*at), most.max(*at)])
@@ -426,13 +480,34 @@ pub(super) struct EdgeLanes<S: Lanes> {
     pub(super) value: i32x16<S>,
     pub(super) a: i32x16<S>,
     pub(super) b: i32x16<S>,
-    /// The point's distance from a vertex of the edge, and 0 or −1 for the fill rule:
-    /// `value = a·x + b·y + bias`, modulo 2³².
-    pub(super) from: [i32x16<S>; 2],
+}
+
+/// One edge of sixteen triangles, and the way to a point from a vertex on it: the edge's value
+/// there is `a·x + b·y + bias`.
+#[derive(Clone, Copy)]
+pub(super) struct EdgeFrom<S: Lanes> {
+    pub(super) a: i32x16<S>,
+    pub(super) b: i32x16<S>,
+    /// The point's distance from the vertex.
+    pub(super) way: [i32x16<S>; 2],
+    /// 0, or −1 for the fill rule.
     pub(super) bias: i32x16<S>,
 }
 
-/// The three edges, wound so that inside is ≥ 0, the fill rule folded in, at a point for each
+impl<S: Lanes> EdgeFrom<S> {
+    /// The edge at the point, modulo 2³².
+    #[inline(always)]
+    fn at_point(self) -> EdgeLanes<S> {
+        let Self { a, b, way, bias } = self;
+        EdgeLanes {
+            value: a * way[0] + b * way[1] + bias,
+            a,
+            b,
+        }
+    }
+}
+
+/// The three edges, wound so that inside is ≥ 0, the fill rule folded in, to a point for each
 /// triangle.
 ///
 /// Vertices are sorted by (y, x), which decides what is a top or a left edge: clockwise 0→1 and 1→2
@@ -444,7 +519,7 @@ pub(super) fn edges<S: Lanes>(
     packet: &TrianglePacket,
     corners: &Corners<S>,
     point: [i32x16<S>; 2],
-) -> [EdgeLanes<S>; 3] {
+) -> [EdgeFrom<S>; 3] {
     let ([x0, x1, x2], [y0, y1, y2]) = (corners.x, corners.y);
     let clockwise = s.mask_from_bits(packet.clockwise);
     let never = s.mask_from_bits(0);
@@ -474,7 +549,7 @@ impl<S: Lanes> Winding<S> {
         [ax, ay]: [i32x16<S>; 2],
         [bx, by]: [i32x16<S>; 2],
         [if_clockwise, if_not]: [mask32x16<S>; 2],
-    ) -> EdgeLanes<S> {
+    ) -> EdgeFrom<S> {
         let (zero, less) = (
             <i32x16<S> as SimdBase<S>>::splat(s, 0),
             <i32x16<S> as SimdBase<S>>::splat(s, -1),
@@ -483,14 +558,11 @@ impl<S: Lanes> Winding<S> {
         let a = self.clockwise.select(a, zero - a);
         let b = self.clockwise.select(b, zero - b);
         let owns = (self.clockwise & if_clockwise) | (!self.clockwise & if_not);
-        let from = [self.point[0] - ax, self.point[1] - ay];
-        let bias = owns.select(zero, less);
-        EdgeLanes {
-            value: a * from[0] + b * from[1] + bias,
+        EdgeFrom {
             a,
             b,
-            from,
-            bias,
+            way: [self.point[0] - ax, self.point[1] - ay],
+            bias: owns.select(zero, less),
         }
     }
 }

@@ -12,15 +12,12 @@ mod choice;
 mod fours;
 #[cfg(target_arch = "x86_64")]
 mod pairs;
-mod prefetch;
 #[cfg(target_arch = "x86_64")]
 mod registers;
 #[cfg(target_arch = "x86_64")]
 mod single;
 #[cfg(target_arch = "x86_64")]
 mod squares;
-
-pub use prefetch::prefetch;
 
 use crate::{LANES, Packet};
 use fearless_simd::{Simd, SimdBase, u32x16};

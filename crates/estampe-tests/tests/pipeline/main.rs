@@ -27,6 +27,7 @@ mod samples;
 mod scan_conversion;
 mod shadow_volumes;
 mod shared_edges;
+mod small_lines;
 mod small_triangles;
 mod tessellation;
 mod tessellation_domain;

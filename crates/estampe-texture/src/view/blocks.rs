@@ -7,7 +7,7 @@ use super::packet_texel::{FLOAT, RGBA8, RGBA8_SRGB, RGBA16F};
 use super::plane::{Plane, TexelView};
 use estampe_simd::{
     Bytes, LANE_X, LANE_Y, LANES, Lanes as SimdLanes, Level, Packet, SimdBase, dispatch, f32x16,
-    i32x16, mask32x16, prefetch, u32x4, u32x16,
+    i32x16, mask32x16, u32x4, u32x16,
 };
 use estampe_types::ViewDimension;
 
@@ -43,7 +43,7 @@ impl TexelView {
                 let Some([r, g, b, a]) = view.block_at(s, plane, at) else {
                     return false;
                 };
-                view.prefetch_blocks(plane, [x.0[0], y.0[0]]);
+                view.prefetch_blocks(s, plane, [x.0[0], y.0[0]]);
                 *texels = [packet(r, 0), packet(g, 0), packet(b, 0), packet(a, 0)];
             }
             true
@@ -65,7 +65,7 @@ impl TexelView {
     /// Those pass after pass reads are in no cache near the processor, as images are large, and
     /// rows of one are too short for the processor to foresee.
     #[inline(always)]
-    fn prefetch_blocks(&self, plane: &Plane, [x, y]: [i32; 2]) {
+    fn prefetch_blocks<S: SimdLanes>(&self, s: S, plane: &Plane, [x, y]: [i32; 2]) {
         let words = self.packets.map_or(1, |format| format.words);
         let row = words * plane.sides[0];
         let slice = self.base_layer.cast_signed().wrapping_mul(plane.sides[1]);
@@ -75,14 +75,19 @@ impl TexelView {
         if is_right {
             return;
         }
+        let texels = &self.texture.texels[..];
         for line in SIDE..2 * SIDE {
             let at = first.wrapping_add(line * row);
-            prefetch(&self.texture.texels[..], at.cast_unsigned() as usize);
+            if let Some(word) = texels.get(at.cast_unsigned() as usize) {
+                s.prefetch(word);
+            }
         }
         if y & SIDE != 0 {
             for line in -SIDE..0 {
                 let at = first.wrapping_add(line * row + 2 * SIDE * words);
-                prefetch(&self.texture.texels[..], at.cast_unsigned() as usize);
+                if let Some(word) = texels.get(at.cast_unsigned() as usize) {
+                    s.prefetch(word);
+                }
             }
         }
     }

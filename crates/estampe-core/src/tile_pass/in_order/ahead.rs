@@ -1,48 +1,139 @@
-//! Reading ahead: the triangles that come next are brought to the cache.
+//! Reading ahead: the primitives that come next are brought to the cache.
 //!
 //! The triangles of a tile lie anywhere in a chunk, and so do the varyings of their vertices. The
 //! processor would wait for each of them in turn, because the work on one triangle is longer than
-//! what it looks ahead. Here it waits once for several entries.
+//! what it looks ahead. Here they are prefetched while others are drawn:
+//!
+//! ```text
+//!     drawn ─▶ 16 whose varyings are on their way ─▶ 16 that are on their way themselves
+//! ```
 
 use crate::bounds::bins::BinEntry;
 use crate::bounds::chunk::Chunk;
+use crate::bounds::primitives::{LinePrimitive, Triangle, VertexRef};
 use crate::fragment::interpolate::VaryingSource;
-use estampe_simd::Lane;
-use std::hint::black_box;
+use estampe_simd::{LANES, Lane, Lanes, Level, dispatch};
 
-/// Entries that are read together.
-pub(super) const ENTRIES: usize = 16;
+/// The primitives of a tile that come next.
+#[derive(Debug)]
+pub(super) struct Ahead<'a> {
+    chunk: &'a Chunk,
+    source: VaryingSource<'a>,
+    /// Those that are prefetched next.
+    primitives: Upcoming<'a>,
+    /// Those whose varyings are prefetched next.
+    varyings: Upcoming<'a>,
+    /// How many may be drawn until more are prefetched.
+    ready: usize,
+}
 
-/// Reads the triangles of the first [`ENTRIES`] entries, then the varyings of their vertices.
-#[inline(always)]
-pub(super) fn touch(chunk: &Chunk, source: &VaryingSource<'_>, entries: &[BinEntry]) {
-    let mut words = 0u32;
-    for entry in entries.iter().take(ENTRIES) {
-        let BinEntry::Triangles { packet, lanes } = *entry else {
-            return;
+impl<'a> Ahead<'a> {
+    /// The primitives of some entries, of which none is drawn.
+    pub(super) fn new(
+        chunk: &'a Chunk,
+        source: VaryingSource<'a>,
+        entries: &'a [BinEntry],
+    ) -> Self {
+        let all = Upcoming {
+            entries,
+            lanes: 0,
+            packet: 0,
         };
-        let triangles = chunk.taken_apart(packet);
-        for lane in Lane::all_of(lanes) {
-            // One word of each of its two cache lines.
-            let triangle = &triangles[lane.get()];
-            words = words.wrapping_add(triangle.x[0].cast_unsigned());
-            words = words.wrapping_add(triangle.r.to_bits());
+        Self {
+            chunk,
+            source,
+            primitives: all.clone(),
+            varyings: all,
+            ready: 0,
         }
     }
-    for entry in entries.iter().take(ENTRIES) {
-        let BinEntry::Triangles { packet, lanes } = *entry else {
-            return;
-        };
-        let triangles = chunk.taken_apart(packet);
-        for lane in Lane::all_of(lanes) {
-            for vertex in triangles[lane.get()].vertex {
-                // They may lie in two cache lines.
-                let varyings = source.of(vertex);
-                for value in [varyings.first(), varyings.last()].into_iter().flatten() {
-                    words = words.wrapping_add(value.to_bits());
+
+    /// Notes that one more primitive is drawn next, and prefetches others if it is time.
+    #[inline(always)]
+    pub(super) fn step(&mut self, level: Level) {
+        if self.ready == 0 {
+            self.ready = LANES;
+            self.prefetch(level);
+        }
+        self.ready -= 1;
+    }
+
+    #[inline(never)]
+    fn prefetch(&mut self, level: Level) {
+        dispatch!(level, s => self.prefetch_lanes(s));
+    }
+
+    #[inline(always)]
+    fn prefetch_lanes<S: Lanes>(&mut self, s: S) {
+        for _ in 0..LANES {
+            match self.primitives.next(self.chunk) {
+                Some(Primitive::Triangle(triangle)) => s.prefetch(triangle),
+                Some(Primitive::Line(line)) => s.prefetch(line),
+                None => break,
+            }
+        }
+        for _ in 0..LANES {
+            match self.varyings.next(self.chunk) {
+                Some(Primitive::Triangle(triangle)) => {
+                    for vertex in triangle.vertex {
+                        self.prefetch_varyings(s, vertex);
+                    }
                 }
+                Some(Primitive::Line(line)) => {
+                    for end in &line.ends {
+                        self.prefetch_varyings(s, end.vertex);
+                    }
+                }
+                None => break,
             }
         }
     }
-    black_box(words);
+
+    /// Prefetches a vertex's varyings, which may lie in two cache lines.
+    #[inline(always)]
+    fn prefetch_varyings<S: Lanes>(&self, s: S, vertex: VertexRef) {
+        if let [first, .., last] | [first @ last] = self.source.of(vertex) {
+            s.prefetch(first);
+            s.prefetch(last);
+        }
+    }
+}
+
+/// A primitive that is prefetched.
+enum Primitive<'a> {
+    Triangle(&'a Triangle),
+    Line(&'a LinePrimitive),
+}
+
+/// A tile's entries from one on.
+#[derive(Debug, Clone)]
+struct Upcoming<'a> {
+    entries: &'a [BinEntry],
+    /// The triangles that are left of the packet at hand.
+    lanes: u16,
+    packet: u32,
+}
+
+impl<'a> Upcoming<'a> {
+    /// The next triangle or line; points are not prefetched.
+    #[inline(always)]
+    fn next(&mut self, chunk: &'a Chunk) -> Option<Primitive<'a>> {
+        while self.lanes == 0 {
+            let (first, rest) = self.entries.split_first()?;
+            self.entries = rest;
+            match *first {
+                BinEntry::Triangles { packet, lanes } => {
+                    (self.packet, self.lanes) = (packet, lanes);
+                }
+                BinEntry::Line(number) => {
+                    return Some(Primitive::Line(&chunk.lines[number as usize]));
+                }
+                BinEntry::Point(_) => return None,
+            }
+        }
+        let lane = Lane::all_of(self.lanes).next()?;
+        self.lanes &= self.lanes - 1;
+        let triangles = chunk.taken_apart(self.packet);
+        Some(Primitive::Triangle(&triangles[lane.get()]))
+    }
 }

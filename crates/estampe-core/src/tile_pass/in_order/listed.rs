@@ -1,19 +1,21 @@
-//! Small triangles of a batch as a list of pixels, or quads: tests before shading, then packets.
+//! Small primitives of a batch as a list of pixels, or quads: tests before shading, then packets.
 
 use super::dense::lanes_between;
-use super::small::Listing;
+use super::small::{Listing, SmallScratch};
 use super::tests::run_apart;
 use super::{InOrder, InOrderScratch};
 use crate::depth_format::clamp_depth;
 use crate::fragment::cross_triangle::{Row, bits_of_row};
-use crate::fragment::interpolate::WindowPixels;
+use crate::fragment::interpolate::{VaryingSource, WindowPixels};
 use crate::fragment::place::{Place, indices_of};
 use crate::fragment::quad::QUAD;
 use crate::fragment::queue::{PixelPacket, replace};
 use crate::per_sample::sample_tests::StoredSamples;
 use crate::plan::tile_plan::TestTiming;
 use crate::raster::pixel_list::Pixels;
-use estampe_simd::{Bytes, LANES, Lanes, Select, SimdBase, bits_of, dispatch, f32x16, u32x16};
+use estampe_simd::{
+    Bytes, LANES, Lanes, Packet, Select, SimdBase, bits_of, dispatch, f32x16, u32x16,
+};
 
 /// When the tests that come before shading are made.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -25,18 +27,53 @@ enum EarlyTests {
     OfPackets,
 }
 
+/// The values of listed pixels: those of their triangles or lines. Distances are from the origins.
+pub(super) trait ListedValues {
+    /// The primitives that face the viewer.
+    fn front<const N: usize>(of: &SmallScratch<N>) -> u16;
+
+    /// Returns true if all samples of a pixel have the depth of its centre.
+    fn has_depths_of_centers<const N: usize>(of: &SmallScratch<N>) -> bool;
+
+    /// Depth, not yet clamped, of the primitives in `lane`.
+    fn depth<S: Lanes, const N: usize>(
+        of: &SmallScratch<N>,
+        s: S,
+        lane: u32x16<S>,
+        distances: [f32x16<S>; 2],
+    ) -> f32x16<S>;
+
+    /// 1/w at the pixels' centres.
+    fn inverse_w<S: Lanes, const N: usize>(
+        of: &SmallScratch<N>,
+        s: S,
+        row: Row<S>,
+        distances: [f32x16<S>; 2],
+    ) -> f32x16<S>;
+
+    /// The varyings at the pixels' centres.
+    fn varyings<S: Lanes, const N: usize>(
+        of: &SmallScratch<N>,
+        s: S,
+        row: Row<S>,
+        source: &VaryingSource<'_>,
+        distances: [f32x16<S>; 2],
+        out: &mut [Packet<f32>],
+    );
+}
+
 impl<const N: usize> InOrder<'_, '_, '_, N> {
-    /// Draws small triangles of the batch that follow each other.
+    /// Draws small primitives of the batch that follow each other.
     #[inline(never)]
-    pub(super) fn list_pixels(&mut self, lanes: u16) {
+    pub(super) fn list_pixels<V: ListedValues>(&mut self, lanes: u16) {
         if const { N <= 4 } {
-            dispatch!(@wide self.work.level, s => self.list_lanes(s, lanes),
-                scalar => unreachable!("the scalar level draws triangle by triangle"));
+            dispatch!(@wide self.work.level, s => self.list_lanes::<_, V>(s, lanes),
+                scalar => unreachable!("the scalar level draws one by one"));
         }
     }
 
     #[inline(always)]
-    fn list_lanes<S: Lanes>(&mut self, s: S, lanes: u16) {
+    fn list_lanes<S: Lanes, V: ListedValues>(&mut self, s: S, lanes: u16) {
         let plan = self.work.plan;
         let scratch = &mut *self.scratch.in_order.small;
         if self.listing == Listing::Quads {
@@ -51,22 +88,23 @@ impl<const N: usize> InOrder<'_, '_, '_, N> {
             TestTiming::Early if !is_read_only => EarlyTests::OfPackets,
             TestTiming::Early | TestTiming::RejectEarly => EarlyTests::OfList,
         };
-        self.test_list(s, early == EarlyTests::OfList);
+        self.test_list::<_, V>(s, early == EarlyTests::OfList);
         let mut from = 0;
         let count = self.scratch.in_order.fragments.len();
         if count != 0 {
             self.end_solid();
         }
         while from < count {
-            from += self.queue_pixels(s, from, early == EarlyTests::OfPackets);
+            from += self.queue_pixels::<_, V>(s, from, early == EarlyTests::OfPackets);
         }
     }
 
     /// Makes fragments of the listed pixels, less those of which no sample passes.
     #[inline(always)]
-    fn test_list<S: Lanes>(&mut self, s: S, tests: bool) {
+    fn test_list<S: Lanes, V: ListedValues>(&mut self, s: S, tests: bool) {
         let plan = self.work.plan;
         let (offsets, count) = (self.samples.offsets(), self.samples.count());
+        let depths_at = self.depths_at::<V>();
         self.scratch.in_order.fragments.clear();
         let quads = self.listing == Listing::Quads;
         let pixels_each = if quads { QUAD } else { 1 };
@@ -83,14 +121,14 @@ impl<const N: usize> InOrder<'_, '_, '_, N> {
             let first = scratch.small.distances(s, pixels);
             let zero = <u32x16<S> as SimdBase<S>>::splat(s, 0);
             let (mut samples, mut any) = (zero, 0);
-            for sample in 0..count {
+            for (sample, depth_at) in depths_at.iter().enumerate().take(count) {
                 let mut mask = listed;
                 if N > 1 || quads {
                     mask &= scratch.small.covers(s, sample, pixels);
                 }
                 if tests && mask != 0 {
-                    let distances = moved(first, offsets[0], offsets[sample]);
-                    let new = scratch.packet.z.at(s, pixels.lane(), distances);
+                    let distances = moved(first, offsets[0], *depth_at);
+                    let new = V::depth(scratch, s, pixels.lane(), distances);
                     let new = plan.tests.stored.of(s, new);
                     let depths = bits_of(self.job.depth.as_flattened());
                     let stored = s.gather(depths, indices_of(s, places, [count, sample]));
@@ -130,9 +168,10 @@ impl<const N: usize> InOrder<'_, '_, '_, N> {
     /// Queues the next packet of different pixels, from a fragment on; gives the number of its
     /// fragments.
     #[inline(always)]
-    fn queue_pixels<S: Lanes>(&mut self, s: S, from: usize, tests: bool) -> usize {
+    fn queue_pixels<S: Lanes, V: ListedValues>(&mut self, s: S, from: usize, tests: bool) -> usize {
         let plan = self.work.plan;
         let (offsets, samples) = (self.samples.offsets(), self.samples.count());
+        let depths_at = self.depths_at::<V>();
         let InOrderScratch {
             small: scratch,
             fragments,
@@ -180,15 +219,15 @@ impl<const N: usize> InOrder<'_, '_, '_, N> {
         let mut packet = PixelPacket {
             place: place_of(&places, quads),
             masks,
-            front: bits_of_row(s, scratch.packet.front, row),
+            front: bits_of_row(s, V::front(scratch), row),
         };
         let first = scratch.small.distances(s, pixels);
         if tests {
             let place = &packet.place;
-            for (sample, offset) in offsets.into_iter().enumerate().take(samples) {
+            for (sample, place_of_depth) in depths_at.into_iter().enumerate().take(samples) {
                 let mask = &mut packet.masks[sample];
-                let distances = moved(first, offsets[0], offset);
-                let new = scratch.packet.z.at(s, pixels.lane(), distances);
+                let distances = moved(first, offsets[0], place_of_depth);
+                let new = V::depth(scratch, s, pixels.lane(), distances);
                 let new = plan.tests.stored.of(s, new);
                 let fragments = (new, *mask, packet.front);
                 let at = (place, samples, sample);
@@ -214,9 +253,7 @@ impl<const N: usize> InOrder<'_, '_, '_, N> {
         let small = &*self.scratch.in_order.small;
         let center = moved(first, offsets[0], [0.5; 2]);
         let source = &self.source;
-        small
-            .planes
-            .varyings(s, row, source, center, inputs.varyings);
+        V::varyings(small, s, row, source, center, inputs.varyings);
         let set = inputs.lanes;
         if let Some([to_x, to_y, to_z, to_w]) = inputs.position {
             let tile = [self.work.shape.x, self.work.shape.y];
@@ -224,13 +261,13 @@ impl<const N: usize> InOrder<'_, '_, '_, N> {
             let [x, y] = WindowPixels::of_places(s, places, tile).coordinates([0.5; 2]);
             replace(s, to_x, set, x);
             replace(s, to_y, set, y);
-            let depth = small.packet.z.at(s, pixels.lane(), center);
+            let depth = V::depth(small, s, pixels.lane(), center);
             replace(s, to_z, set, clamp_depth(s, depth, inputs.depth_range));
-            replace(s, to_w, set, small.inverse_w(s, row, center));
+            replace(s, to_w, set, V::inverse_w(small, s, row, center));
         }
-        for (to, offset) in inputs.depths.iter_mut().zip(offsets) {
-            let distances = moved(first, offsets[0], offset);
-            let depth = small.packet.z.at(s, pixels.lane(), distances);
+        for (to, place_of_depth) in inputs.depths.iter_mut().zip(depths_at) {
+            let distances = moved(first, offsets[0], place_of_depth);
+            let depth = V::depth(small, s, pixels.lane(), distances);
             replace(s, to, set, clamp_depth(s, depth, inputs.depth_range));
         }
         if quads || end < wanted {
@@ -241,6 +278,15 @@ impl<const N: usize> InOrder<'_, '_, '_, N> {
         *fragments += u64::from((alive & lanes).count_ones());
         *packets += u64::from(used == 0);
         count
+    }
+
+    /// The places in a pixel at which its samples have their depths.
+    #[inline(always)]
+    fn depths_at<V: ListedValues>(&self) -> [[f32; 2]; N] {
+        if V::has_depths_of_centers(&self.scratch.in_order.small) {
+            return [[0.5; 2]; N];
+        }
+        self.samples.offsets()
     }
 }
 

@@ -7,7 +7,7 @@
 //! ```text
 //!   coverage ─▶ early tests ─▶ queue ─▶ shader ─▶ late tests ─▶ colours
 //!      ├─ whole blocks, blended from planes (`blocks`)
-//!      └─ small triangles, sixteen at a time (`small`)
+//!      └─ small triangles and lines, sixteen at a time (`small`, `small_lines`)
 //! ```
 
 /// Enters the SIMD level in code that is generic over `N`, the number of samples: the scalar level
@@ -32,6 +32,7 @@ mod fragments;
 mod listed;
 mod shade;
 mod small;
+mod small_lines;
 mod solid;
 mod tests;
 
@@ -48,11 +49,13 @@ use crate::raster::conservative::ConservativeTriangle;
 use crate::raster::triangle::TileTriangle;
 use crate::raster::{CoverageList, SampleSet, line, point};
 use crate::tile_path::TilePath;
+use ahead::Ahead;
 use estampe_simd::{Lane, Lanes};
 use estampe_types::state::ConservativeMode;
 use fragments::{Fragments, LastPacket};
 use shade::PendingQuads;
 use small::{Batch, Listing, SmallScratch};
+use small_lines::LineBatch;
 use solid::Solid;
 
 /// Memory of one worker.
@@ -121,6 +124,7 @@ pub(super) fn draw<const N: usize>(
         blends_blocks: plan.path == TilePath::InOrderBlocks,
         shares_packets: plan.path != TilePath::InOrderPackets,
         needs_no_quads: pipeline.key().needs_no_quads,
+        primitives: entries.first().copied(),
         // A run is of one kind of primitive, and notes of the queue serve triangles alone.
         gathers: gathers(plan) && matches!(entries.first(), Some(BinEntry::Triangles { .. })),
         stores_in_order: pipeline.key().stores_in_order,
@@ -135,11 +139,9 @@ pub(super) fn draw<const N: usize>(
         job,
         scratch,
     };
-    let mut batch = Batch::default();
-    for (at, entry) in entries.iter().enumerate() {
-        if !is_scalar && at % ahead::ENTRIES == 0 {
-            ahead::touch(work.chunk, &drawing.source, &entries[at..]);
-        }
+    let (mut batch, mut lines) = (Batch::default(), LineBatch::default());
+    let mut ahead = Ahead::new(work.chunk, drawing.source, entries);
+    for entry in entries {
         match *entry {
             BinEntry::Triangles { packet, lanes } => {
                 for lane in Lane::all_of(lanes) {
@@ -149,6 +151,7 @@ pub(super) fn draw<const N: usize>(
                         drawing.batch(&mut Batch::of(&triangle));
                         continue;
                     }
+                    ahead.step(work.level);
                     let triangle = &work.chunk.taken_apart(packet)[lane.get()];
                     if !batch.has_room(triangle) {
                         drawing.batch(&mut batch);
@@ -156,11 +159,15 @@ pub(super) fn draw<const N: usize>(
                     batch.add(triangle);
                 }
             }
-            BinEntry::Line(number) => drawing.line(&work.chunk.lines[number as usize]),
+            BinEntry::Line(number) => {
+                ahead.step(work.level);
+                drawing.add_line(&mut lines, &work.chunk.lines[number as usize]);
+            }
             BinEntry::Point(number) => drawing.point(&work.chunk.points[number as usize]),
         }
     }
     drawing.batch(&mut batch);
+    drawing.draw_lines(&mut lines);
     drawing.end_solid();
     drawing.flush();
     let (passed, planes) = (drawing.passed, std::mem::take(&mut drawing.planes));
@@ -191,6 +198,8 @@ struct InOrder<'a, 'j, 't, const N: usize> {
     shares_packets: bool,
     /// True if fragments are shaded without looking at others of their quad.
     needs_no_quads: bool,
+    /// One of the primitives, which are all of one kind.
+    primitives: Option<BinEntry>,
     /// True if triangles of one colour are gathered.
     gathers: bool,
     /// True if shaders store in an order that can be seen.
@@ -309,8 +318,8 @@ impl<'a, const N: usize> InOrder<'a, '_, '_, N> {
         })
     }
 
-    /// Lines and points enter the SIMD level one by one: they are few, and their code is kept out
-    /// of the loop over triangles.
+    /// Draws a line alone. Such lines and points enter the SIMD level one by one: they are few, and
+    /// their code is kept out of the loop over triangles.
     fn line(&mut self, line: &'a LinePrimitive) {
         let TileWork { shape, rect, .. } = self.work;
         let list = &mut self.scratch.in_order.list;

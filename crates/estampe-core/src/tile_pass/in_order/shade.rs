@@ -8,6 +8,7 @@
 //! it, closes that packet.
 
 use super::InOrder;
+use super::small::Listing;
 use crate::fragment::interpolate::{
     Interpolant, LineOrPoint, PixelInterpolant, TriangleInterpolant,
 };
@@ -49,11 +50,22 @@ impl<const N: usize> InOrder<'_, '_, '_, N> {
             return;
         }
         self.end_solid();
-        // Pixels would be slower than quads (`wire` 93 ms → 102): a line has few.
         if const { S::IS_SCALAR } || !self.shares_packets {
             self.queue_line_packets(interpolant, front);
+        } else if self.listing == Listing::Pixels && self.lists_lines() {
+            // Quads would be drawn after pixels of later lines, which fill the open packet.
+            self.queue_line_pixels(interpolant, front);
         } else {
+            // Pixels would be slower than quads: a line or point has few.
             self.queue_line_quads(interpolant, front);
+        }
+    }
+
+    #[inline(never)]
+    fn queue_line_pixels(&mut self, interpolant: &LineOrPoint<'_>, front: bool) {
+        if const { N <= 4 } {
+            dispatch!(@wide self.work.level, s => self.queue_dense(s, interpolant, front),
+                scalar => unreachable!("the scalar level queues packets"));
         }
     }
 

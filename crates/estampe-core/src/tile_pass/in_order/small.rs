@@ -14,13 +14,16 @@
 //! ```
 
 use super::InOrder;
-use crate::bounds::primitives::{Triangle, TrianglePacket};
+use super::listed::ListedValues;
+use crate::bounds::primitives::{LinePacket, Triangle, TrianglePacket};
+use crate::fragment::cross_line::CrossLines;
 use crate::fragment::cross_triangle::{CrossPlanes, Row, bits_of_row};
+use crate::fragment::interpolate::VaryingSource;
 use crate::plan::tile_plan::TilePlan;
 use crate::raster::pixel_list::PixelList;
 use crate::raster::small::{Boxes, Parts, SIDE, SmallTriangles};
 use crate::tile_path::TilePath;
-use estampe_simd::{LANES, Lanes, Select, SimdBase, dispatch, f32x16};
+use estampe_simd::{LANES, Lanes, Packet, Select, SimdBase, dispatch, f32x16, u32x16};
 use estampe_types::state::ConservativeMode;
 
 /// Fewer triangles than this are drawn one by one.
@@ -98,10 +101,13 @@ impl<'a> Batch<'a> {
 #[derive(Debug)]
 pub(super) struct SmallScratch<const N: usize> {
     /// The batch at hand.
-    pub(super) packet: TrianglePacket,
+    packet: TrianglePacket,
     parts: Parts,
     pub(super) small: SmallTriangles<N>,
-    pub(super) planes: CrossPlanes,
+    planes: CrossPlanes,
+    /// Lines, and their values.
+    pub(super) lines: LinePacket,
+    pub(super) cross_lines: CrossLines,
     pub(super) listed: PixelList,
 }
 
@@ -112,28 +118,64 @@ impl<const N: usize> Default for SmallScratch<N> {
             parts: Parts::WHOLE,
             small: SmallTriangles::default(),
             planes: CrossPlanes::default(),
+            lines: LinePacket::EMPTY,
+            cross_lines: CrossLines::default(),
             listed: PixelList::default(),
         }
     }
 }
 
-impl<const N: usize> SmallScratch<N> {
-    /// 1/w at the centres of a row's pixels, given by their distances from the planes' origins.
+/// Values of listed pixels that are triangles'.
+struct OfTriangles;
+
+impl ListedValues for OfTriangles {
     #[inline(always)]
-    pub(super) fn inverse_w<S: Lanes>(
-        &self,
+    fn front<const N: usize>(of: &SmallScratch<N>) -> u16 {
+        of.packet.front
+    }
+
+    #[inline(always)]
+    fn has_depths_of_centers<const N: usize>(_of: &SmallScratch<N>) -> bool {
+        false
+    }
+
+    #[inline(always)]
+    fn depth<S: Lanes, const N: usize>(
+        of: &SmallScratch<N>,
+        s: S,
+        lane: u32x16<S>,
+        distances: [f32x16<S>; 2],
+    ) -> f32x16<S> {
+        of.packet.z.at(s, lane, distances)
+    }
+
+    #[inline(always)]
+    fn inverse_w<S: Lanes, const N: usize>(
+        of: &SmallScratch<N>,
         s: S,
         row: Row<S>,
         distances: [f32x16<S>; 2],
     ) -> f32x16<S> {
-        let (iw, lane) = (&self.packet.iw, row.pixels.lane());
+        let (iw, lane) = (&of.packet.iw, row.pixels.lane());
         let origin = s.permute_f32(f32x16::load_array_ref(s, &iw.origin), lane);
-        let is_equal = s.mask_from_bits(bits_of_row(s, self.packet.equal_w, row));
+        let is_equal = s.mask_from_bits(bits_of_row(s, of.packet.equal_w, row));
         is_equal.select(origin, iw.at(s, lane, distances))
+    }
+
+    #[inline(always)]
+    fn varyings<S: Lanes, const N: usize>(
+        of: &SmallScratch<N>,
+        s: S,
+        row: Row<S>,
+        source: &VaryingSource<'_>,
+        distances: [f32x16<S>; 2],
+        out: &mut [Packet<f32>],
+    ) {
+        of.planes.varyings(s, row, source, distances, out);
     }
 }
 
-/// What is listed of small triangles.
+/// What is listed of small triangles and lines.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Listing {
     /// Nothing: they are drawn one by one.
@@ -184,7 +226,7 @@ impl<const N: usize> InOrder<'_, '_, '_, N> {
             let run = (small >> lane).trailing_ones();
             if run >= LEAST {
                 let lanes = ((1u32 << run) - 1) << lane;
-                self.list_pixels((lanes & 0xFFFF) as u16);
+                self.list_pixels::<OfTriangles>((lanes & 0xFFFF) as u16);
                 next = lane + run as usize;
             } else {
                 self.triangle(s, triangle);
