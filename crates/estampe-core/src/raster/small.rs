@@ -96,7 +96,7 @@ pub(super) struct BoxPixels<S: Lanes> {
 /// Small triangles of one packet inside a tile, or [small lines](super::small_lines).
 #[derive(Debug, Clone)]
 #[repr(C, align(64))]
-pub(crate) struct SmallTriangles<const N: usize> {
+pub(crate) struct SmallBoxes<const N: usize> {
     /// By sample and lane: bit 8·row + column is that pixel of its box, rows 0 to 3 and 4 to 7.
     covered: [[[u32; LANES]; 2]; N],
     /// Rows of the largest box.
@@ -108,7 +108,7 @@ pub(crate) struct SmallTriangles<const N: usize> {
     from_y: [f32; LANES],
 }
 
-impl<const N: usize> Default for SmallTriangles<N> {
+impl<const N: usize> Default for SmallBoxes<N> {
     fn default() -> Self {
         Self {
             covered: [[[0; LANES]; 2]; N],
@@ -120,7 +120,7 @@ impl<const N: usize> Default for SmallTriangles<N> {
     }
 }
 
-impl<const N: usize> SmallTriangles<N> {
+impl<const N: usize> SmallBoxes<N> {
     /// Covers those of the packet's triangles in `lanes` that are small; returns which those are.
     /// Of several samples, [larger ones](Self::cover_boxes) are left to others.
     #[inline(always)]
@@ -141,7 +141,7 @@ impl<const N: usize> SmallTriangles<N> {
         self.cover_boxes(s, boxes, &Parts::WHOLE, (packet, lanes), (tile, samples))
     }
 
-    /// [`SmallTriangles::cover`] of the triangles whose boxes are as given, or of parts of larger
+    /// [`SmallBoxes::cover`] of the triangles whose boxes are as given, or of parts of larger
     /// ones, of which all or none are covered.
     #[inline(always)]
     pub(crate) fn cover_boxes<S: Lanes>(

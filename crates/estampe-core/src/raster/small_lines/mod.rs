@@ -16,7 +16,7 @@
 #[cfg(test)]
 mod tests;
 
-use super::small::{BoxPixels, EdgeLanes, SIDE, SmallTriangles, ends};
+use super::small::{BoxPixels, EdgeLanes, SIDE, SmallBoxes, ends};
 use super::{SampleSet, TileShape};
 use crate::bounds::pixel_rect::PixelRect;
 use crate::bounds::primitives::{LinePacket, LinePrimitive};
@@ -260,7 +260,7 @@ impl<S: Lanes> Bounds<S> {
     }
 }
 
-impl<const N: usize> SmallTriangles<N> {
+impl<const N: usize> SmallBoxes<N> {
     /// Covers those of the lines in `lanes` that are small, or halves of them; returns which those
     /// are: both halves of a line or none. Distances are then those from the lines' starts.
     #[inline(always)]

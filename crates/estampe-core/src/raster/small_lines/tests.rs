@@ -55,7 +55,7 @@ fn together<const N: usize>(
     (shape, quads): (LineShape, bool),
     rect: &PixelRect,
 ) -> (u16, Pixelwise) {
-    let mut small = SmallTriangles::<N>::default();
+    let mut small = SmallBoxes::<N>::default();
     let mut found = vec![vec![Vec::new(); N]; LANES];
     let samples = SampleSet::new(N);
     let covered = dispatch!(@wide level, s => {

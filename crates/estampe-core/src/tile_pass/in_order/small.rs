@@ -21,7 +21,7 @@ use crate::fragment::cross_triangle::{CrossPlanes, Row, bits_of_row};
 use crate::fragment::interpolate::VaryingSource;
 use crate::plan::tile_plan::TilePlan;
 use crate::raster::pixel_list::PixelList;
-use crate::raster::small::{Boxes, Parts, SIDE, SmallTriangles};
+use crate::raster::small::{Boxes, Parts, SIDE, SmallBoxes};
 use crate::tile_path::TilePath;
 use estampe_simd::{LANES, Lanes, Packet, Select, SimdBase, dispatch, f32x16, u32x16};
 use estampe_types::state::ConservativeMode;
@@ -103,7 +103,7 @@ pub(super) struct SmallScratch<const N: usize> {
     /// The batch at hand.
     packet: TrianglePacket,
     parts: Parts,
-    pub(super) small: SmallTriangles<N>,
+    pub(super) small: SmallBoxes<N>,
     planes: CrossPlanes,
     /// Lines, and their values.
     pub(super) lines: LinePacket,
@@ -116,7 +116,7 @@ impl<const N: usize> Default for SmallScratch<N> {
         Self {
             packet: TrianglePacket::EMPTY,
             parts: Parts::WHOLE,
-            small: SmallTriangles::default(),
+            small: SmallBoxes::default(),
             planes: CrossPlanes::default(),
             lines: LinePacket::EMPTY,
             cross_lines: CrossLines::default(),

@@ -39,7 +39,7 @@ use crate::bounds::bins::BinEntry;
 use crate::raster::CoverageList;
 use crate::raster::packet_edges::PacketEdges;
 use crate::raster::pixel_list::PixelList;
-use crate::raster::small::SmallTriangles;
+use crate::raster::small::SmallBoxes;
 use crate::tile_path::TilePath;
 use buffer::VisibilityBuffer;
 use cross_triangle::CrossTriangleScratch;
@@ -60,7 +60,7 @@ pub(super) struct VisibilityScratch<const N: usize> {
     /// The packets in which all of a triangle fails the depth test.
     failing: CoverageList<N>,
     buffer: VisibilityBuffer<N>,
-    small: SmallTriangles<N>,
+    small: SmallBoxes<N>,
     pixels: PixelList,
     edges: PacketEdges<N>,
     cross: CrossTriangleScratch,
@@ -74,7 +74,7 @@ impl<const N: usize> Default for VisibilityScratch<N> {
             list: CoverageList::default(),
             failing: CoverageList::default(),
             buffer: VisibilityBuffer::default(),
-            small: SmallTriangles::default(),
+            small: SmallBoxes::default(),
             pixels: PixelList::default(),
             edges: PacketEdges::default(),
             cross: CrossTriangleScratch::default(),
