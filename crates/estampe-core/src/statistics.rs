@@ -39,6 +39,9 @@ pub struct Statistics {
     /// They depend on the SIMD level.
     #[doc(hidden)]
     pub packets_joined: u64,
+    /// Fragments of four samples each that filled packets pixel by pixel.
+    #[doc(hidden)]
+    pub fragments_by_pixels: u64,
     /// Covered samples of small triangles that were tested as lists. They depend on the SIMD level.
     #[doc(hidden)]
     pub small_triangle_pixels: u64,
@@ -114,6 +117,7 @@ impl std::ops::AddAssign for Statistics {
         self.triangles_set_up_in_lanes += other.triangles_set_up_in_lanes;
         self.triangles_gathered += other.triangles_gathered;
         self.packets_joined += other.packets_joined;
+        self.fragments_by_pixels += other.fragments_by_pixels;
         self.visibility_runs += other.visibility_runs;
         self.paths += other.paths;
         self.groups_of_geometry += other.groups_of_geometry;

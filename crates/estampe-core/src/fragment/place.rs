@@ -73,6 +73,17 @@ pub(crate) fn indices_of<S: Lanes>(
 }
 
 impl Place {
+    /// Sixteen pixels: packet·16 + lane, of each.
+    #[inline(always)]
+    #[expect(clippy::cast_possible_truncation, reason = "a tile has 4096 pixels")]
+    pub(crate) fn of_pixels(pixels: &[u32; LANES]) -> Self {
+        let mut places = [0; LANES];
+        for (to, pixel) in places.iter_mut().zip(pixels) {
+            *to = *pixel as u16;
+        }
+        Self::Pixels(places)
+    }
+
     /// Sixteen words of one sample, in the order of the fragments' lanes.
     #[inline(always)]
     pub(crate) fn load<S: Lanes>(

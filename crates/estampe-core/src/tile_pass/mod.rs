@@ -6,6 +6,7 @@
 //! which runs on over draws; everything else is drawn [in order](in_order).
 
 mod clear;
+mod fragments;
 mod in_order;
 mod visibility;
 mod worker_tile;

@@ -1,7 +1,7 @@
 //! Derivatives of varyings that primitives give, and packets that triangles share because nothing
 //! else asks for quads.
 
-use estampe::TilePath;
+use estampe::{Statistics, TilePath};
 use estampe_tests::geometry::{Style, triangles};
 use estampe_tests::shaders::{CentroidGradients, Gradients, Halved, Probe, Scalar, Slope};
 use estampe_tests::{Case, CaseDraw, ExpectedPaths, Random, TestShader, check, check_paths};
@@ -131,14 +131,32 @@ fn derivatives_of_odd_values() {
 #[test]
 fn triangles_share_packets_where_no_quads_are_needed() {
     let paths = ExpectedPaths(&[TilePath::VisibilityCrossTriangle, TilePath::VisibilityQuads]);
-    let statistics = check_paths("gradients/joined", 40, paths, |random| {
+    let statistics = check_meeting("gradients/joined", 1, paths);
+    let joined = statistics.packets_joined;
+    assert!(joined > 1000, "{joined} parts of packets share one");
+}
+
+/// The same with four samples, where triangles meet at pixels too.
+///
+/// Rows: R1, R5, R6, O3.
+#[test]
+fn pixels_fill_packets_where_no_quads_are_needed() {
+    let paths = ExpectedPaths(&[TilePath::VisibilityQuads]);
+    let statistics = check_meeting("gradients/by pixels", 4, paths);
+    let by_pixels = statistics.fragments_by_pixels;
+    assert!(by_pixels > 1000, "{by_pixels} fragments fill packets");
+}
+
+/// Many triangles of which several meet in most packets.
+fn check_meeting(topic: &str, samples: u32, paths: ExpectedPaths) -> Statistics {
+    check_paths(topic, 40, paths, |random| {
         let shader = |random: &mut Random| match random.below(3) {
             0 => Halved.into(),
             1 => Probe(random.pick(&[Scalar::X, Scalar::Z, Scalar::InverseW, Scalar::FrontFacing]))
                 .into(),
             _ => Gradients::random(random).into(),
         };
-        let mut case = case(random, 1, shader);
+        let mut case = case(random, samples, shader);
         for draw in &mut case.draws {
             let style = random.pick(&[Style::OnGrid, Style::Large, Style::AcrossDepths]);
             let vertices = triangles(random, style, case.size, 40);
@@ -148,7 +166,5 @@ fn triangles_share_packets_where_no_quads_are_needed() {
             };
         }
         case
-    });
-    let joined = statistics.packets_joined;
-    assert!(joined > 1000, "{joined} parts of packets share one");
+    })
 }

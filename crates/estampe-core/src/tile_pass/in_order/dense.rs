@@ -5,12 +5,12 @@
 //! primitives that follow. Order is kept: a pixel that the open packet holds, or one of the whole
 //! packets behind it, closes it.
 
-use super::fragments::Fragments;
-use super::listed::place_of;
 use super::{InOrder, InOrderScratch};
 use crate::fragment::interpolate::{PixelInterpolant, WindowPixels};
+use crate::fragment::place::Place;
 use crate::fragment::queue::{PixelPacket, PrimitivePacket};
-use estampe_simd::{Bytes, LANES, Lanes, Select, SimdBase, u32x16};
+use crate::tile_pass::fragments::{Fragments, lanes_between, masks_of};
+use estampe_simd::{LANES, Lanes, SimdBase, u32x16};
 
 impl<const N: usize> InOrder<'_, '_, '_, N> {
     /// Queues a primitive's list.
@@ -21,8 +21,6 @@ impl<const N: usize> InOrder<'_, '_, '_, N> {
         interpolant: &impl PixelInterpolant<S>,
         front: bool,
     ) {
-        const NUMBERS: [u32; LANES] = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15];
-        let zero = <u32x16<S> as SimdBase<S>>::splat(s, 0);
         self.scratch.in_order.fragments.clear();
         for at in 0..self.scratch.in_order.list.items().len() {
             let covered = self.scratch.in_order.list.items()[at];
@@ -39,16 +37,8 @@ impl<const N: usize> InOrder<'_, '_, '_, N> {
                 self.scratch.in_order.last_packet.add_whole(covered.packet);
                 continue;
             }
-            let mut samples = zero;
-            if const { N > 1 } {
-                for (mask, sample) in covered.masks.into_iter().zip(0..) {
-                    let bit = <u32x16<S> as SimdBase<S>>::splat(s, 1 << sample);
-                    samples |= s.mask_from_bits(mask).select(bit, zero);
-                }
-            }
-            let places = u32x16::load_array(s, NUMBERS) + u32::from(covered.packet) * 16;
             let fragments = &mut self.scratch.in_order.fragments;
-            fragments.add(s, any, [zero, places, samples]);
+            fragments.add_packet(s, &covered);
             if fragments.len() > Fragments::MOST - LANES {
                 self.fill_packets(s, interpolant, front);
             }
@@ -93,16 +83,9 @@ impl<const N: usize> InOrder<'_, '_, '_, N> {
                 continue;
             }
             let lanes = lanes_between(used, end);
-            let mut masks = [lanes; N];
-            if const { N > 1 } {
-                let samples = u32x16::load_array_ref(s, samples);
-                for (mask, sample) in masks.iter_mut().zip(0u32..) {
-                    *mask &= s.sign_bits((samples << (31 - sample)).bitcast());
-                }
-            }
             let packet = PixelPacket {
-                place: place_of(places, false),
-                masks,
+                place: Place::of_pixels(places),
+                masks: masks_of(s, samples, lanes),
                 front: if front { lanes } else { 0 },
             };
             let pixels = WindowPixels::of_places(s, u32x16::load_array_ref(s, places), tile);
@@ -115,11 +98,4 @@ impl<const N: usize> InOrder<'_, '_, '_, N> {
         }
         self.scratch.in_order.fragments.clear();
     }
-}
-
-/// The lanes from one on, before another one.
-#[inline(always)]
-#[expect(clippy::cast_possible_truncation, reason = "sixteen bits")]
-pub(super) fn lanes_between(first: usize, end: usize) -> u16 {
-    ((1u32 << end) - (1 << first)) as u16
 }

@@ -1,6 +1,5 @@
 //! Small primitives of a batch as a list of pixels, or quads: tests before shading, then packets.
 
-use super::dense::lanes_between;
 use super::small::{Listing, SmallScratch};
 use super::tests::run_apart;
 use super::{InOrder, InOrderScratch};
@@ -13,6 +12,7 @@ use crate::fragment::queue::{PixelPacket, replace};
 use crate::per_sample::sample_tests::StoredSamples;
 use crate::plan::tile_plan::TestTiming;
 use crate::raster::pixel_list::Pixels;
+use crate::tile_pass::fragments::lanes_between;
 use estampe_simd::{
     Bytes, LANES, Lanes, Packet, Select, SimdBase, bits_of, dispatch, f32x16, u32x16,
 };
@@ -307,9 +307,5 @@ pub(super) fn place_of(pixels: &[u32; LANES], quads: bool) -> Place {
         let quad = |number: usize| (pixels[number * QUAD] / QUAD as u32) as u16;
         return Place::Quads([quad(0), quad(1), quad(2), quad(3)]);
     }
-    let mut places = [0; LANES];
-    for (to, pixel) in places.iter_mut().zip(pixels) {
-        *to = *pixel as u16;
-    }
-    Place::Pixels(places)
+    Place::of_pixels(pixels)
 }

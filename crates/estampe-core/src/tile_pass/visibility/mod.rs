@@ -27,6 +27,7 @@ mod buffer;
 mod counting;
 mod cross_triangle;
 mod gathered;
+mod parts;
 mod quads;
 mod rasterize;
 mod resolve;

@@ -10,8 +10,8 @@
 //!    c c c c
 //! ```
 //!
-//! Only where a pixel has one sample: the samples of an edge that are left over would take another
-//! packet at each place, and quads of several places share theirs.
+//! Only where a pixel has one sample: of several, those of an edge that are left over would take
+//! another packet at each place. Four samples go [by pixels](super::pixels).
 
 use super::Resolver;
 use crate::raster::Covered;

@@ -2,8 +2,9 @@
 //!
 //! A packet that shows one triangle is shaded whole. Of others each triangle's quads are shaded in
 //! packets that they share with those of other triangles and places; if fragments need no quads,
-//! each lane is shaded for the triangle that it shows (`joined.rs`). Draws that share a pipeline
-//! and bindings are shaded together, and those of one colour come first.
+//! each lane is shaded for the triangle that it shows (`joined.rs`, and `pixels.rs` where a pixel
+//! has four samples). Draws that share a pipeline and bindings are shaded together, and those of
+//! one colour come first.
 
 mod early;
 mod groups;
@@ -11,9 +12,11 @@ mod ids;
 mod joined;
 mod per_draw;
 mod per_primitive;
+mod pixels;
 mod visible;
 
 use super::buffer::ShadingGroup;
+use super::parts::Parts;
 use super::quads::Quads;
 use super::rasterize::{rasterize_waiting, storage_of};
 use super::shortcuts::PrimitiveTexels;
@@ -23,6 +26,7 @@ use crate::fragment::queue::PrimitivePacket;
 use crate::pipeline::RenderPipeline;
 use crate::plan::tile_plan::TilePlan;
 use crate::raster::{Covered, MAX_PACKETS, SampleSet, packet_origin};
+use crate::tile_pass::fragments::Fragments;
 use crate::tile_pass::{TileJob, TilePass, TileScratch, write_colors};
 use early::write_cross_triangle;
 use estampe_simd::{LANES, Lanes, dispatch};
@@ -32,6 +36,9 @@ use visible::VisibleTriangle;
 
 /// No place in a list.
 pub(super) const NONE: u32 = u32::MAX;
+
+/// Parts of packets with as many pixels are shaded alone.
+const FEW_IDLE: u32 = 13;
 
 /// Packets of a tile, one bit each.
 type PacketSet = [u64; MAX_PACKETS / 64];
@@ -44,6 +51,9 @@ pub(super) struct ResolveScratch<const N: usize> {
     visible: Vec<VisibleTriangle>,
     planes: Vec<f32>,
     quads: Quads<N>,
+    parts: Parts<N>,
+    /// Pixels of one triangle's parts.
+    fragments: Box<Fragments>,
     /// By shading group: the packets that show its triangles.
     packets: Vec<PacketSet>,
     texels: PrimitiveTexels,
@@ -59,6 +69,8 @@ impl<const N: usize> Default for ResolveScratch<N> {
             visible: Vec::new(),
             planes: Vec::new(),
             quads: Quads::default(),
+            parts: Parts::default(),
+            fragments: Box::default(),
             packets: Vec::new(),
             texels: PrimitiveTexels::default(),
             draws: DrawTexels::default(),
@@ -98,6 +110,9 @@ pub(in crate::tile_pass) fn resolve<const N: usize>(
         resolve.visible_of.clear();
         resolve.visible_of.resize(buffer.triangles.len(), NONE);
         resolve.quads.begin_run(buffer.triangles.len());
+        if const { N == 4 } {
+            resolve.parts.begin_run(buffer.triangles.len());
+        }
         let words = plan.pipeline.color_targets()[0].codec.words();
         if !cross.words().is_empty() {
             dispatch!(@wide pass.level, s => write_cross_triangle(s, (storage, words), job, scratch),
@@ -175,6 +190,7 @@ impl<'a, 'j, 't, const N: usize> Resolver<'a, 'j, 't, N> {
         self.plan = &self.pass.plans[group.sub_draw as usize];
         self.modes = &self.plan.pipeline.interface().varyings;
         self.scratch.visibility.resolve.quads.begin_group();
+        self.scratch.visibility.resolve.parts.begin_group();
         self.scratch.queue.configure(
             self.plan.pipeline,
             self.samples,
@@ -186,6 +202,10 @@ impl<'a, 'j, 't, const N: usize> Resolver<'a, 'j, 't, N> {
             scalar => unreachable!("{ONLY_WIDE}"));
         if !self.scratch.visibility.resolve.quads.triangles().is_empty() {
             dispatch!(@wide level, s => self.quads(s),
+                scalar => unreachable!("{ONLY_WIDE}"));
+        }
+        if const { N == 4 } && !self.scratch.visibility.resolve.parts.triangles().is_empty() {
+            dispatch!(@wide level, s => self.pixels(s),
                 scalar => unreachable!("{ONLY_WIDE}"));
         }
         self.flush();
@@ -237,12 +257,18 @@ impl<'a, 'j, 't, const N: usize> Resolver<'a, 'j, 't, N> {
         }
     }
 
-    /// Queues a triangle's part of a packet if no quad of it is empty; otherwise notes its quads.
+    /// Queues a triangle's part of a packet if few lanes of it are idle; otherwise notes its pixels,
+    /// or its quads.
     #[inline(always)]
     fn queue<S: Lanes>(&mut self, s: S, id: u32, covered: &Covered<N>) {
         let any = covered.any();
+        let needs_no_quads = self.plan.pipeline.key().needs_no_quads;
+        if const { N == 4 } && needs_no_quads && any.count_ones() < FEW_IDLE {
+            self.scratch.visibility.resolve.parts.add(id, *covered);
+            return;
+        }
         let quads = (any | any >> 1 | any >> 2 | any >> 3) & 0x1111;
-        if quads != 0x1111 {
+        if quads != 0x1111 && !(const { N == 4 } && needs_no_quads) {
             let resolve = &mut self.scratch.visibility.resolve;
             resolve.quads.add(id, *covered, quads);
             return;

@@ -1,11 +1,10 @@
-//! Lists of fragments that fill packets, and the pixels of the packet that is being filled.
+//! Lists of fragments that fill packets, pixel by pixel.
 
-use crate::raster::MAX_PACKETS;
+use crate::raster::Covered;
 use crate::raster::small::PIXELS;
-use estampe_simd::{LANES, Lanes, SimdBase, u32x16};
-use std::hint::select_unpredictable;
+use estampe_simd::{Bytes, LANES, Lanes, Select, SimdBase, u32x16};
 
-/// Listed pixels that have passed the early tests.
+/// Listed pixels.
 #[derive(Debug)]
 #[repr(C, align(64))]
 pub(super) struct Fragments {
@@ -66,6 +65,22 @@ impl Fragments {
         debug_assert!(self.len <= Self::MOST, "{} fragments", self.len);
     }
 
+    /// Adds the pixels of a packet of the tile of which some samples are in masks.
+    #[inline(always)]
+    pub(super) fn add_packet<S: Lanes, const N: usize>(&mut self, s: S, covered: &Covered<N>) {
+        const NUMBERS: [u32; LANES] = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15];
+        let zero = <u32x16<S> as SimdBase<S>>::splat(s, 0);
+        let mut samples = zero;
+        if const { N > 1 } {
+            for (mask, sample) in covered.masks.into_iter().zip(0..) {
+                let bit = <u32x16<S> as SimdBase<S>>::splat(s, 1 << sample);
+                samples |= s.mask_from_bits(mask).select(bit, zero);
+            }
+        }
+        let places = u32x16::load_array(s, NUMBERS) + u32::from(covered.packet) * 16;
+        self.add(s, covered.any(), [zero, places, samples]);
+    }
+
     /// Sixteen fragments: pixels, places, samples. The lane of fragment `from` is `lane`.
     #[inline(always)]
     pub(super) fn sixteen(&self, from: usize, lane: usize) -> [&[u32; LANES]; 3] {
@@ -105,81 +120,26 @@ fn sixteen_of(list: &[u32; Fragments::ROOM], from: usize) -> &[u32; LANES] {
     sixteen.unwrap_or(&[0; LANES])
 }
 
-/// Which pixels of the tile the last packet holds.
-#[derive(Debug)]
-pub(super) struct LastPacket {
-    /// By pixel: the number of the last packet that holds it.
-    packet_of: [u32; MAX_PACKETS * LANES],
-    /// The number of the last packet.
-    number: u32,
+/// The lanes of each sample, among some lanes, of fragments whose samples are listed.
+#[inline(always)]
+pub(super) fn masks_of<S: Lanes, const N: usize>(
+    s: S,
+    samples: &[u32; LANES],
+    lanes: u16,
+) -> [u16; N] {
+    let mut masks = [lanes; N];
+    if const { N > 1 } {
+        let samples = u32x16::load_array_ref(s, samples);
+        for (mask, sample) in masks.iter_mut().zip(0u32..) {
+            *mask &= s.sign_bits((samples << (31 - sample)).bitcast());
+        }
+    }
+    masks
 }
 
-impl Default for LastPacket {
-    fn default() -> Self {
-        Self {
-            packet_of: [0; MAX_PACKETS * LANES],
-            number: 0,
-        }
-    }
-}
-
-impl LastPacket {
-    /// Begins a packet, which holds no pixel yet.
-    #[inline(always)]
-    pub(super) fn begin(&mut self) {
-        if self.number == u32::MAX {
-            self.number = 0;
-            self.packet_of.fill(0);
-        }
-        self.number += 1;
-    }
-
-    /// Notes all pixels of a packet of the tile.
-    #[inline(always)]
-    pub(super) fn add_whole(&mut self, packet: u16) {
-        let (packets, _) = self.packet_of.as_chunks_mut::<LANES>();
-        packets[usize::from(packet) % MAX_PACKETS] = [self.number; LANES];
-    }
-
-    /// Adds the pixels of some lanes. Returns the first lane that the packet cannot take, because
-    /// it holds its pixel already, or [`LANES`]; with this lane another packet must begin.
-    #[inline(always)]
-    pub(super) fn add(&mut self, places: &[u32; LANES], lanes: u16) -> usize {
-        let mut again = 0u32;
-        for (lane, place) in places.iter().enumerate() {
-            let of_pixel = &mut self.packet_of[*place as usize % (MAX_PACKETS * LANES)];
-            again |= u32::from(*of_pixel == self.number) << lane;
-            let is_added = lanes >> lane & 1 == 1;
-            *of_pixel = select_unpredictable(is_added, self.number, *of_pixel);
-        }
-        let again = again & u32::from(lanes);
-        (again | 1 << LANES).trailing_zeros() as usize
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_packet_takes_no_pixel_twice() {
-        let mut places = [0; LANES];
-        for (place, number) in places.iter_mut().zip(100..) {
-            *place = number;
-        }
-        let mut last = LastPacket::default();
-        last.begin();
-        assert_eq!(last.add(&places, 0x00FF), LANES);
-        // The second half is new, the first one is not asked for.
-        assert_eq!(last.add(&places, 0xFF00), LANES);
-        assert_eq!(last.add(&places, 0x0C00), 10);
-        last.begin();
-        places[9] = places[3];
-        assert_eq!(last.add(&places, u16::MAX), 9);
-        last.begin();
-        assert_eq!(last.add(&places, !(1 << 3)), LANES);
-        last.begin();
-        last.add_whole(6);
-        assert_eq!(last.add(&places, u16::MAX), 0, "place 100 is in packet 6");
-    }
+/// The lanes from one on, before another one.
+#[inline(always)]
+#[expect(clippy::cast_possible_truncation, reason = "sixteen bits")]
+pub(super) fn lanes_between(first: usize, end: usize) -> u16 {
+    ((1u32 << end) - (1 << first)) as u16
 }

@@ -1,0 +1,84 @@
+//! The pixels of the packet that is being filled.
+
+use crate::raster::MAX_PACKETS;
+use estampe_simd::LANES;
+use std::hint::select_unpredictable;
+
+/// Which pixels of the tile the last packet holds.
+#[derive(Debug)]
+pub(super) struct LastPacket {
+    /// By pixel: the number of the last packet that holds it.
+    packet_of: [u32; MAX_PACKETS * LANES],
+    /// The number of the last packet.
+    number: u32,
+}
+
+impl Default for LastPacket {
+    fn default() -> Self {
+        Self {
+            packet_of: [0; MAX_PACKETS * LANES],
+            number: 0,
+        }
+    }
+}
+
+impl LastPacket {
+    /// Begins a packet, which holds no pixel yet.
+    #[inline(always)]
+    pub(super) fn begin(&mut self) {
+        if self.number == u32::MAX {
+            self.number = 0;
+            self.packet_of.fill(0);
+        }
+        self.number += 1;
+    }
+
+    /// Notes all pixels of a packet of the tile.
+    #[inline(always)]
+    pub(super) fn add_whole(&mut self, packet: u16) {
+        let (packets, _) = self.packet_of.as_chunks_mut::<LANES>();
+        packets[usize::from(packet) % MAX_PACKETS] = [self.number; LANES];
+    }
+
+    /// Adds the pixels of some lanes. Returns the first lane that the packet cannot take, because
+    /// it holds its pixel already, or [`LANES`]; with this lane another packet must begin.
+    #[inline(always)]
+    pub(super) fn add(&mut self, places: &[u32; LANES], lanes: u16) -> usize {
+        let mut again = 0u32;
+        for (lane, place) in places.iter().enumerate() {
+            let of_pixel = &mut self.packet_of[*place as usize % (MAX_PACKETS * LANES)];
+            again |= u32::from(*of_pixel == self.number) << lane;
+            let is_added = lanes >> lane & 1 == 1;
+            *of_pixel = select_unpredictable(is_added, self.number, *of_pixel);
+        }
+        let again = again & u32::from(lanes);
+        (again | 1 << LANES).trailing_zeros() as usize
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_packet_takes_no_pixel_twice() {
+        let mut places = [0; LANES];
+        for (place, number) in places.iter_mut().zip(100..) {
+            *place = number;
+        }
+        let mut last = LastPacket::default();
+        last.begin();
+        assert_eq!(last.add(&places, 0x00FF), LANES);
+        // The second half is new, the first one is not asked for.
+        assert_eq!(last.add(&places, 0xFF00), LANES);
+        assert_eq!(last.add(&places, 0x0C00), 10);
+        last.begin();
+        places[9] = places[3];
+        assert_eq!(last.add(&places, u16::MAX), 9);
+        last.begin();
+        assert_eq!(last.add(&places, !(1 << 3)), LANES);
+        last.begin();
+        last.add_whole(6);
+        assert_eq!(last.add(&places, u16::MAX), 0, "place 100 is in packet 6");
+    }
+}
