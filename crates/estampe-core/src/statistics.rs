@@ -56,6 +56,10 @@ pub struct Statistics {
     /// Triangles that were covered together with those of other packets, once for each tile.
     #[doc(hidden)]
     pub triangles_gathered_in_tiles: u64,
+    /// Packets that were blended from planes; their layers; and of these, those that were no
+    /// estimates. They depend on the SIMD level.
+    #[doc(hidden)]
+    pub layers_blended: [u64; 3],
     /// Packets of triangles that change stencil values, in which all of the triangle was known to
     /// fail the depth test. They depend on the SIMD level.
     #[doc(hidden)]
@@ -110,6 +114,9 @@ impl std::ops::AddAssign for Statistics {
             for (count, other) in counts.iter_mut().zip(others) {
                 *count += other;
             }
+        }
+        for (count, other) in self.layers_blended.iter_mut().zip(other.layers_blended) {
+            *count += other;
         }
         self.small_triangle_pixels += other.small_triangle_pixels;
         self.triangles_gathered_in_tiles += other.triangles_gathered_in_tiles;

@@ -9,7 +9,8 @@ use estampe_tests::{
 };
 use estampe_types::TextureFormat;
 use estampe_types::state::{
-    BlendComponent, BlendFactor, BlendOperation, BlendState, ColorWrites, PrimitiveTopology,
+    BlendComponent, BlendFactor, BlendOperation, BlendState, ColorWrites, CompareFunction,
+    DepthState, PrimitiveTopology,
 };
 
 const FACTORS: [BlendFactor; 13] = [
@@ -105,6 +106,97 @@ fn unorm_targets() {
         ExpectedPaths(&[TilePath::InOrderBlocks, TilePath::InOrderQuads]),
         |random| layers(random, TextureFormat::Rgba8Unorm),
     );
+}
+
+/// Rows: O5.
+#[test]
+fn layers_of_whole_blocks() {
+    let statistics = check_paths(
+        "colors/layers",
+        24,
+        ExpectedPaths(&[TilePath::InOrderBlocks]),
+        |random| {
+            let size = random.pick(&[[64, 64], [100, 70], [63, 65], [130, 40]]);
+            let mut case = Case::new(size, 1);
+            case.format = Some(random.pick(&[
+                TextureFormat::Rgba8Unorm,
+                TextureFormat::Bgra8Unorm,
+                TextureFormat::Rgba8Unorm,
+            ]));
+            case.clear_color = random.four(0.0, 1.0);
+            if random.once_in(2) {
+                case.clear_color[3] = 1.0;
+            }
+            for _ in 0..1 + random.below(3) {
+                case.draws.push(draw_of_layers(random, size));
+            }
+            case
+        },
+    );
+    let [packets, layers, exact] = statistics.layers_blended;
+    let wide = estampe_tests::fast_path::all_devices();
+    if wide.iter().all(|device| device.level().is_scalar()) {
+        return;
+    }
+    // Most layers are blended together with others, and estimates decide nearly all of them.
+    assert!(
+        packets > 0 && layers > packets * 3 / 2,
+        "{layers} in {packets}"
+    );
+    assert!(
+        exact > layers / 200 && exact < layers / 2,
+        "{exact} of {layers}"
+    );
+}
+
+/// Triangles larger than the target, of smooth and of flat colours, with one alpha and with many;
+/// some small ones between them.
+fn draw_of_layers(random: &mut Random, size: [u32; 2]) -> CaseDraw {
+    let [width, height] = size.map(|side| side as f32);
+    let mut vertices = Vec::new();
+    for _ in 0..1 + random.below(14) {
+        let depth = random.pick(&[0.25, 0.5, 0.75]);
+        let (is_flat, alpha) = (
+            random.once_in(4),
+            random.pick(&[0.0, 0.2, 0.5, 0.5, 0.8, 1.0]),
+        );
+        let has_many_alphas = random.once_in(3);
+        let flat = random.four(0.0, 1.0);
+        let reach = random.pick(&[1.0, 1.3, 4.0]);
+        let corners = [[-0.1, -0.2], [2.2 * reach, -0.1], [-0.1, 2.3 * reach]];
+        let mirror = random.once_in(2);
+        for [x, y] in corners {
+            let place = [
+                x * width,
+                if mirror {
+                    height - y * height
+                } else {
+                    y * height
+                },
+            ];
+            let mut values = if is_flat { flat } else { random.four(0.0, 1.0) };
+            if !has_many_alphas {
+                values[3] = alpha;
+            }
+            vertices.push(Vertex {
+                position: clip_at(size, place, depth, 1.0),
+                values,
+            });
+        }
+        if random.once_in(6) {
+            vertices.extend(triangles(random, Style::Small, size, 1));
+        }
+    }
+    let mut draw = CaseDraw::new(Colored, &vertices);
+    draw.blend = Some(BlendState::ALPHA_BLENDING);
+    draw.depth = match random.below(3) {
+        0 => None,
+        _ => Some(DepthState {
+            compare: random.pick(&[CompareFunction::Less, CompareFunction::LessEqual]),
+            write_enabled: random.once_in(2),
+        }),
+    };
+    draw
 }
 
 /// Rows: O5, O7, O8.

@@ -10,6 +10,8 @@ impl<const N: usize> InOrder<'_, '_, '_, N> {
         if self.scratch.queue.is_empty() {
             return;
         }
+        // They were drawn before anything was queued.
+        self.blend_layers();
         let (plan, level) = (self.work.plan, self.work.level);
         let queue = &mut self.scratch.queue;
         let fragments = queue.shade(level, plan.pipeline, plan.bindings);

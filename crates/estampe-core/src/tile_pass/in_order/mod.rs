@@ -6,7 +6,7 @@
 //!
 //! ```text
 //!   coverage ─▶ early tests ─▶ queue ─▶ shader ─▶ late tests ─▶ colours
-//!      ├─ whole blocks, blended from planes (`blocks`)
+//!      ├─ large triangles, blended from their planes (`layers`)
 //!      └─ small triangles and lines, sixteen at a time (`small`, `small_lines`)
 //! ```
 
@@ -25,10 +25,10 @@ macro_rules! dispatch_samples {
 }
 
 mod ahead;
-mod blocks;
 mod dense;
 mod flush;
 mod last_packet;
+mod layers;
 mod listed;
 mod shade;
 mod small;
@@ -45,6 +45,7 @@ use crate::fragment::interpolate::{
     VaryingSource, set_planes,
 };
 use crate::per_sample::hiz::{BlockClasses, HizQuery};
+use crate::per_sample::source_over::Layers;
 use crate::plan::tile_plan::{TestTiming, TilePlan};
 use crate::raster::conservative::ConservativeTriangle;
 use crate::raster::triangle::TileTriangle;
@@ -72,6 +73,8 @@ pub(super) struct InOrderScratch<const N: usize> {
     small: Box<SmallScratch<N>>,
     fragments: Box<Fragments>,
     last_packet: Box<LastPacket>,
+    /// Large triangles that wait to be blended.
+    layers: Box<Layers>,
 }
 
 impl<const N: usize> Default for InOrderScratch<N> {
@@ -85,6 +88,7 @@ impl<const N: usize> Default for InOrderScratch<N> {
             small: Box::default(),
             fragments: Box::default(),
             last_packet: Box::default(),
+            layers: Box::default(),
         }
     }
 }
@@ -170,6 +174,7 @@ pub(super) fn draw<const N: usize>(
     drawing.batch(&mut batch);
     drawing.draw_lines(&mut lines);
     drawing.end_solid();
+    drawing.blend_layers();
     drawing.flush();
     let (passed, planes) = (drawing.passed, std::mem::take(&mut drawing.planes));
     scratch.in_order.planes = planes;
@@ -193,7 +198,7 @@ struct InOrder<'a, 'j, 't, const N: usize> {
     conservative: ConservativeMode,
     /// True if blocks that hierarchical z rejects are skipped.
     uses_hiz: bool,
-    /// True if whole blocks of triangles without perspective are blended from their planes.
+    /// True if triangles without perspective that cover blocks are blended from their planes.
     blends_blocks: bool,
     /// True if quads or pixels of several primitives share packets.
     shares_packets: bool,
@@ -256,11 +261,12 @@ impl<'a, const N: usize> InOrder<'a, '_, '_, N> {
             }
             self.end_solid();
         }
-        // Whole blocks are blended with one sample only.
+        // Layers are of one sample only.
         if const { N == 1 } && coverage.whole != 0 {
-            self.blend_blocks(&interpolant, coverage);
+            self.add_layer(&interpolant, coverage);
+        } else {
+            self.queue_triangle(&interpolant, front);
         }
-        self.queue_triangle(&interpolant, front);
         self.planes = planes;
     }
 
