@@ -423,20 +423,20 @@ impl Context {
         let mut statistics = Statistics::default();
         match facts.samples {
             1 if !self.level.is_scalar() => {
-                executor.for_each(&mut jobs, &memory.tiles_1, |job, scratch| {
-                    tile_pass::draw(&pass, job, scratch);
+                executor.for_each_ahead(&mut jobs, &memory.tiles_1, |job, next, scratch| {
+                    tile_pass::draw(&pass, job, next, scratch);
                 });
                 take_statistics(&mut memory.tiles_1, &mut statistics);
             }
             4 if !self.level.is_scalar() => {
-                executor.for_each(&mut jobs, &memory.tiles_4, |job, scratch| {
-                    tile_pass::draw(&pass, job, scratch);
+                executor.for_each_ahead(&mut jobs, &memory.tiles_4, |job, next, scratch| {
+                    tile_pass::draw(&pass, job, next, scratch);
                 });
                 take_statistics(&mut memory.tiles_4, &mut statistics);
             }
             _ => {
-                executor.for_each(&mut jobs, &memory.tiles_many, |job, scratch| {
-                    tile_pass::draw(&pass, job, scratch);
+                executor.for_each_ahead(&mut jobs, &memory.tiles_many, |job, next, scratch| {
+                    tile_pass::draw(&pass, job, next, scratch);
                 });
                 take_statistics(&mut memory.tiles_many, &mut statistics);
             }

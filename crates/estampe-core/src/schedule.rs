@@ -110,6 +110,24 @@ impl Executor {
         });
     }
 
+    /// [`Executor::for_each`] that also gives the item that the worker takes next, if it knows.
+    pub(crate) fn for_each_ahead<T: Send + Sync, C: Send>(
+        &self,
+        items: &mut [T],
+        scratch: &[Mutex<C>],
+        work: impl Fn(&mut T, Option<&T>, &mut C) + Sync,
+    ) {
+        self.share(items, |worker, next| {
+            let mut mine = lock(&scratch[worker]);
+            while let Some(mut items) = next() {
+                while let Some((item, others)) = items.split_first_mut() {
+                    work(item, others.first(), &mut mine);
+                    items = others;
+                }
+            }
+        });
+    }
+
     /// Runs `work` for every item.
     pub(crate) fn for_each_alone<T: Send>(&self, items: &mut [T], work: impl Fn(&mut T) + Sync) {
         self.share(items, |_, next| {

@@ -8,6 +8,7 @@
 mod clear;
 mod fragments;
 mod in_order;
+mod next_tile;
 mod visibility;
 mod worker_tile;
 
@@ -29,6 +30,7 @@ use crate::statistics::Statistics;
 use crate::tile_path::TilePath;
 use estampe_simd::{LANES, Level};
 use estampe_types::TextureFormat;
+use next_tile::NextTile;
 use worker_tile::WorkerTile;
 
 /// The most colour targets of a pass.
@@ -73,6 +75,22 @@ pub(crate) struct TileJob<'a> {
     pub(crate) stencil: &'a mut [[u8; LANES]],
     /// The images that colours are resolved into.
     pub(crate) resolved: [&'a mut [u32]; MAX_TARGETS],
+    /// The tile that the worker draws next.
+    pub(crate) next: NextTile<'a>,
+}
+
+impl TileJob<'_> {
+    /// The same job for a while, with the tile that is drawn next.
+    fn with_next<'b>(&'b mut self, next: NextTile<'b>) -> TileJob<'b> {
+        TileJob {
+            tile: self.tile,
+            colors: self.colors.each_mut().map(|color| &mut **color),
+            depth: self.depth,
+            stencil: self.stencil,
+            resolved: self.resolved.each_mut().map(|image| &mut **image),
+            next,
+        }
+    }
 }
 
 /// Memory of one worker, for `N` samples.
@@ -88,12 +106,15 @@ pub(crate) struct TileScratch<const N: usize> {
     pub(crate) statistics: Statistics,
 }
 
-/// Draws a tile.
+/// Draws a tile; `next` is the one that the worker draws then.
 pub(crate) fn draw<const N: usize>(
     pass: &TilePass<'_>,
     job: &mut TileJob<'_>,
+    next: Option<&TileJob<'_>>,
     scratch: &mut TileScratch<N>,
 ) {
+    let next = next.map(|next| NextTile::new(pass, next));
+    let job = &mut job.with_next(next.unwrap_or_default());
     if pass.discards == Discards::default() {
         return draw_into(pass, job, scratch);
     }

@@ -5,6 +5,9 @@ use crate::fragment::interpolate::{DepthPlane, TriangleInterpolant};
 use crate::per_sample::source_over::{ColorPlanes, TileBlock, test_block};
 use estampe_simd::{Lanes, dispatch};
 
+/// Lines of the next tile that are prefetched for each block.
+const AHEAD: usize = 8;
+
 impl<const N: usize> InOrder<'_, '_, '_, N> {
     /// Adds a triangle to the layers that will be blended together: the packets of the list, which
     /// are tested, and the blocks that it covers whole.
@@ -67,7 +70,9 @@ impl<const N: usize> InOrder<'_, '_, '_, N> {
             return;
         }
         let (tile, stored) = (self.work.shape, &mut *self.job.colors[0]);
-        let counts = dispatch!(@wide self.work.level, s => layers.blend(s, tile, stored),
+        let next = &mut self.job.next;
+        let counts = dispatch!(@wide self.work.level, s =>
+                layers.blend(s, tile, stored, #[inline(always)] || next.step(s, AHEAD)),
             scalar => unreachable!("the scalar level blends packet by packet"));
         let statistics = &mut self.scratch.statistics;
         for (sum, count) in

@@ -17,6 +17,9 @@ use crate::tile_pass::{HIZ_PACKETS, TileJob, TilePass, TileScratch, TileWork};
 use crate::tile_path::TilePath;
 use estampe_simd::{Lane, dispatch};
 
+/// Lines of the next tile that are prefetched for a packet of triangles.
+const AHEAD: usize = 4;
+
 /// Rasterizes the tile's triangles of one run of a chunk in the order of submission; `id` is the
 /// first one's.
 pub(super) fn rasterize<const N: usize>(
@@ -160,7 +163,11 @@ impl<'a, 'j, 't, const N: usize> Rasterizer<'a, 'j, 't, N> {
         if const { N <= 4 } {
             let tile = (self.work.shape, &self.work.rect);
             let cover = &mut self.scratch.visibility.small;
-            small = dispatch!(@wide self.work.level, s => cover.cover(s, packet, lanes, tile, self.samples),
+            let next = &mut self.job.next;
+            small = dispatch!(@wide self.work.level, s => {
+                    next.step(s, AHEAD);
+                    cover.cover(s, packet, lanes, tile, self.samples)
+                },
                 scalar => unreachable!("{ONLY_WIDE}"));
         }
         let large = lanes & !small;

@@ -102,13 +102,15 @@ impl Layers {
         }
     }
 
-    /// Blends all layers over a tile's texels, and forgets them.
+    /// Blends all layers over a tile's texels, and forgets them; `before_block` is called before
+    /// each block.
     #[inline(always)]
     pub(crate) fn blend<S: Lanes>(
         &mut self,
         s: S,
         tile: TileShape,
         stored: &mut [[u32; LANES]],
+        mut before_block: impl FnMut(),
     ) -> LayerCounts {
         self.counts = LayerCounts::default();
         let mut blocks = self
@@ -118,6 +120,7 @@ impl Layers {
         while blocks != 0 {
             let block = blocks.trailing_zeros();
             blocks &= blocks - 1;
+            before_block();
             self.blend_block(s, (block, TileBlock::new(tile, block)), stored);
         }
         self.layers.clear();
@@ -170,6 +173,10 @@ impl Layers {
 impl TileBlock {
     /// The first pixel of a packet of the block, in the target.
     #[inline(always)]
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "a block has sixteen packets"
+    )]
     fn packet_pixel(self, packet: usize) -> [i32; 2] {
         let (x, y) = packet_origin((packet % LANES) as u32);
         [self.pixel[0] + x, self.pixel[1] + y]

@@ -30,8 +30,7 @@ impl Noise {
         }
     }
 
-    /// A plane over a square of 256 pixels around the tile whose values are from 0 to 1, or a
-    /// little beyond.
+    /// A plane whose values right of and below its origin are from 0 to 1, or now and then beyond.
     fn plane(&mut self, is_level: bool) -> Plane {
         let origin = self.unit();
         if is_level {
@@ -59,8 +58,8 @@ impl Noise {
         let has_one_alpha = is_flat || self.word().is_multiple_of(2);
         ColorPlanes {
             origin: PlaneOrigin {
-                x: 100.0 + (self.word() % 20_000) as f32 / 256.0,
-                y: 50.0 + (self.word() % 20_000) as f32 / 256.0,
+                x: 100.0 + (self.word() % 7000) as f32 / 256.0,
+                y: 36.0 + (self.word() % 7000) as f32 / 256.0,
             },
             channels: [
                 self.plane(is_flat),
@@ -137,7 +136,7 @@ fn layers_are_the_formula_of_each_pixel() {
                 }
             }
             let stored_lines = stored.as_chunks_mut::<LANES>().0;
-            let counts = dispatch!(@wide level, s => layers.blend(s, TILE, stored_lines),
+            let counts = dispatch!(@wide level, s => layers.blend(s, TILE, stored_lines, || ()),
                 scalar => unreachable!("left out"));
             assert!(stored == wanted, "round {round}, {level:?}");
             sums.packets += counts.packets;
@@ -148,5 +147,5 @@ fn layers_are_the_formula_of_each_pixel() {
     // Both ways are taken, and several layers at a time.
     assert!(sums.layers > sums.packets * 2, "{sums:?}");
     assert!(sums.exact > sums.layers / 100, "{sums:?}");
-    assert!(sums.exact < sums.layers / 2, "{sums:?}");
+    assert!(sums.exact < sums.layers * 3 / 4, "{sums:?}");
 }

@@ -40,6 +40,9 @@ pub(super) const NONE: u32 = u32::MAX;
 /// Parts of packets with as many pixels are shaded alone.
 const FEW_IDLE: u32 = 13;
 
+/// Lines of the next tile that are prefetched for a visible packet, at most.
+const MOST_AHEAD: usize = 8;
+
 /// Packets of a tile, one bit each.
 type PacketSet = [u64; MAX_PACKETS / 64];
 
@@ -216,8 +219,12 @@ impl<'a, 'j, 't, const N: usize> Resolver<'a, 'j, 't, N> {
     fn packets<S: Lanes>(&mut self, s: S, group: &ShadingGroup, packets: PacketSet) {
         let key = self.plan.pipeline.key();
         let (per_primitive, joins) = (key.uniform_over_primitive, key.needs_no_quads && N == 1);
+        let visible = packets.iter().map(|packets| packets.count_ones() as usize);
+        let lines = self.job.next.len().div_ceil(visible.sum::<usize>().max(1));
+        let lines = lines.min(MOST_AHEAD);
         for (from, mut packets) in (0..).step_by(64).zip(packets) {
             while packets != 0 {
+                self.job.next.step(s, lines);
                 let number = from + packets.trailing_zeros() as usize;
                 packets &= packets - 1;
                 let single = self.scratch.visibility.buffer.single.of_packet(number);
