@@ -1,8 +1,8 @@
 //! The memory of the tile that a worker draws next, brought to the cache while it draws another.
 //!
-//! A pass begins a tile by clearing it, or by reading what it holds, and the memory of an image lies
-//! beyond the caches: stores that miss them wait for one another. So a few lines of the next tile
-//! are prefetched for each step of the work on the tile at hand.
+//! A pass begins a tile by clearing it, or by reading what it holds, and the memory of an image
+//! lies beyond the caches: stores that miss them wait for one another. So a few lines of the next
+//! tile are prefetched for each step of the work on the tile at hand.
 
 use super::{TileJob, TilePass};
 use estampe_simd::{LANES, Lanes};

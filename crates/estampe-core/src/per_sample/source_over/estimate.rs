@@ -26,11 +26,11 @@
 //! products, their sum, the last sum); its products, sums and the factor 1/255 by u each, relative
 //! to values of at most 1; the final sum by 128·u. With one alpha, whose r is the same number in
 //! both formulas: 255·(6·A + 3·r + 2)·u + 128·u. The estimate's plane is a sum of three numbers
-//! below 512 (a block's value from f64, a packet's step, a lane's step), each rounded to half a unit
-//! or less, and steps are off by 1.4·A units; the product, if it is rounded, and the sum add r and ½
-//! units. Together at most 5.8 + 1.9·A units, below [`ONE_ALPHA`] = 8. With an alpha that varies,
-//! the exact formula is off by 255·13·u + 128·u, or 6.7 units, and the estimate by 3 units for its
-//! alpha, 3 for its plane and 1 for the rest: below [`MANY_ALPHAS`] = 16.
+//! below 512 (a block's value from f64, a packet's step, a lane's step), each rounded to half a
+//! unit or less, and steps are off by 1.4·A units; the product, if it is rounded, and the sum add r
+//! and ½ units. Together at most 5.8 + 1.9·A units, below [`ONE_ALPHA`] = 8. With an alpha that
+//! varies, the exact formula is off by 255·13·u + 128·u, or 6.7 units, and the estimate by 3 units
+//! for its alpha, 3 for its plane and 1 for the rest: below [`MANY_ALPHAS`] = 16.
 
 use super::{ColorPlanes, TileBlock};
 use crate::bounds::plane::Plane;
@@ -73,7 +73,8 @@ pub(super) struct BlockEstimate {
 }
 
 impl Estimate {
-    /// The estimate, if its error is bounded; of `of_blocks`, what is the same in all blocks is set.
+    /// The estimate, if its error is bounded. Sets the part of `of_blocks` that is the same in all
+    /// blocks.
     #[inline(always)]
     pub(super) fn new(
         colors: &ColorPlanes,
@@ -116,8 +117,8 @@ impl Estimate {
         Some(Self(planes))
     }
 
-    /// Sets the values at the first pixels of a block's packets, which lie as the pixels of a packet
-    /// do, four times as far apart.
+    /// Sets the values at the first pixels of a block's packets, which lie as the pixels of a
+    /// packet do, four times as far apart.
     #[inline(always)]
     pub(super) fn set_block<S: Lanes>(
         &self,
@@ -181,7 +182,7 @@ impl BlockEstimate {
     }
 }
 
-/// Returns true if a plane's values are in 0..=1 in all of the tile, and its products are at most 1.
+/// Returns true if a plane's values are in 0..=1 in all of the tile, and its products at most 1.
 #[inline(always)]
 fn is_tame(colors: &ColorPlanes, plane: &Plane, tile: TileShape) -> bool {
     // Pixels' centres lie within this square, and planes are monotone in x and in y, rounding

@@ -264,8 +264,8 @@ impl<'a, 'j, 't, const N: usize> Resolver<'a, 'j, 't, N> {
         }
     }
 
-    /// Queues a triangle's part of a packet if few lanes of it are idle; otherwise notes its pixels,
-    /// or its quads.
+    /// Queues a triangle's part of a packet if few lanes of it are idle; otherwise notes its
+    /// pixels, or its quads.
     #[inline(always)]
     fn queue<S: Lanes>(&mut self, s: S, id: u32, covered: &Covered<N>) {
         let any = covered.any();
