@@ -2,7 +2,7 @@
 
 use crate::{BoundTexture, SampledTexture, TexelDescriptor, TexelView};
 use estampe_types::{Bindings, Limits, SamplerDescriptor, TextureFormat};
-use std::sync::{Arc, LazyLock};
+use std::sync::LazyLock;
 
 /// Textures by group and binding number. Shaders call this on the
 /// [`Bindings`] of their input; where no texture of the kind is bound, they read zeros.
@@ -15,11 +15,8 @@ pub trait TextureBindings {
 
     /// The texture at one group and binding number with the sampler at another one; `None` if
     /// either is not bound, or the sampler cannot sample the texture.
-    fn texture_with_sampler(
-        &self,
-        texture: [u32; 2],
-        sampler: [u32; 2],
-    ) -> Option<Arc<SampledTexture>>;
+    fn texture_with_sampler(&self, texture: [u32; 2], sampler: [u32; 2])
+    -> Option<&SampledTexture>;
 }
 
 /// One texel of zeros.
@@ -47,7 +44,7 @@ impl TextureBindings for Bindings {
         &self,
         texture: [u32; 2],
         sampler: [u32; 2],
-    ) -> Option<Arc<SampledTexture>> {
+    ) -> Option<&SampledTexture> {
         let bound: Option<&BoundTexture> = self.other(texture[0], texture[1]);
         if bound.is_none() {
             self.miss();

@@ -3,7 +3,7 @@
 use crate::{SampledTexture, TexelView};
 use estampe_simd::Level;
 use estampe_types::{SamplerDescriptor, ShadowMap};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::OnceLock;
 
 /// A texture as a draw binds it, with the samplers that its shaders use with it.
 #[derive(Debug)]
@@ -11,8 +11,18 @@ pub struct BoundTexture {
     view: TexelView,
     depths: Option<ShadowMap>,
     level: Level,
-    /// Each sampler that was used, with the texture: `None` if it cannot sample it.
-    sampled: Mutex<Vec<(SamplerDescriptor, Option<Arc<SampledTexture>>)>>,
+    /// The first of the samplers that were used.
+    first: OnceLock<Box<Sampled>>,
+}
+
+/// The texture with a sampler that was used, in a list that only grows: threads that shade read it
+/// without a lock, as each would ask for the same one with every batch of packets.
+#[derive(Debug)]
+struct Sampled {
+    sampler: SamplerDescriptor,
+    /// `None` if the sampler cannot sample the texture.
+    texture: Option<SampledTexture>,
+    next: OnceLock<Box<Sampled>>,
 }
 
 impl BoundTexture {
@@ -24,7 +34,7 @@ impl BoundTexture {
             view,
             depths,
             level,
-            sampled: Mutex::default(),
+            first: OnceLock::new(),
         }
     }
 
@@ -37,20 +47,46 @@ impl BoundTexture {
     /// The texture with a sampler, made when it is first asked for. `None` if the sampler cannot
     /// sample it.
     #[must_use]
-    pub fn sampled(&self, sampler: &SamplerDescriptor) -> Option<Arc<SampledTexture>> {
-        let mut sampled = self.sampled.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some((_, found)) = sampled.iter().find(|(one, _)| one == sampler) {
-            return found.clone();
+    pub fn sampled(&self, sampler: &SamplerDescriptor) -> Option<&SampledTexture> {
+        let (mut next, mut is_made) = (&self.first, false);
+        loop {
+            let entry = next.get_or_init(|| {
+                is_made = true;
+                Box::new(self.with(*sampler))
+            });
+            // Another thread may have made an entry at the same time, of another sampler.
+            if is_made || entry.sampler == *sampler {
+                return entry.texture.as_ref();
+            }
+            next = &entry.next;
         }
-        let made = SampledTexture::new(self.view.clone(), *sampler).ok();
+    }
+
+    /// The texture with a sampler.
+    #[cold]
+    fn with(&self, sampler: SamplerDescriptor) -> Sampled {
+        let made = SampledTexture::new(self.view.clone(), sampler).ok();
         let made = made.map(|made| {
             let made = made.at_level(self.level);
-            Arc::new(match &self.depths {
+            match &self.depths {
                 Some(depths) => made.with_depths(depths.clone()),
                 None => made,
-            })
+            }
         });
-        sampled.push((*sampler, made.clone()));
-        made
+        Sampled {
+            sampler,
+            texture: made,
+            next: OnceLock::new(),
+        }
+    }
+}
+
+impl Drop for BoundTexture {
+    /// Drops the list entry by entry, however long it is.
+    fn drop(&mut self) {
+        let mut next = self.first.take();
+        while let Some(mut entry) = next {
+            next = entry.next.take();
+        }
     }
 }

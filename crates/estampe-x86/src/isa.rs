@@ -1,6 +1,6 @@
 //! The instruction sets for which code is made, and how much care is taken.
 
-use estampe_simd::LANES;
+use estampe_simd::{LANES, Level};
 
 /// An instruction set.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -15,6 +15,19 @@ impl Isa {
     /// Both, the narrower one first.
     pub const ALL: [Self; 2] = [Self::Avx2, Self::Avx512];
 
+    /// That of a SIMD level of the same instructions, if code is made for it.
+    #[must_use]
+    pub fn of(level: Level) -> Option<Self> {
+        #[cfg(target_arch = "x86_64")]
+        match level {
+            Level::Avx2(_) => return Some(Self::Avx2),
+            Level::Avx512(_) => return Some(Self::Avx512),
+            _ => {}
+        }
+        let _ = level;
+        None
+    }
+
     /// The best one of this processor, if it has any.
     #[must_use]
     pub fn best() -> Option<Self> {
@@ -26,8 +39,8 @@ impl Isa {
     pub fn is_available(self) -> bool {
         #[cfg(target_arch = "x86_64")]
         {
-            let levels = estampe_simd::Level::all_available();
-            levels.iter().any(|level| level.name() == self.name())
+            let levels = Level::all_available();
+            levels.iter().any(|level| Self::of(*level) == Some(self))
         }
         #[cfg(not(target_arch = "x86_64"))]
         false

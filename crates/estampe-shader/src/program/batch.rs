@@ -1,10 +1,10 @@
 //! Batches of the pipeline as runs of a kernel.
 
 use super::stage::Stage;
-use estampe_ir::interface::{BufferSlot, Input, Output};
-use estampe_ir::interpreter::{Buffer, InputData, OutputData, cells};
+use estampe_ir::interface::{Input, Output};
+use estampe_ir::interpreter::{InputData, OutputData, cells};
 use estampe_ir::op::Axis;
-use estampe_types::{Bindings, FragmentBatch, VertexBatch};
+use estampe_types::{FragmentBatch, VertexBatch};
 use std::cell::Cell;
 
 /// The scalars of a packet of each kind. A fragment's varyings have derivatives after them.
@@ -183,27 +183,4 @@ impl<'a> Ends<'a> {
 /// A word of the immediates.
 pub(super) fn immediate(immediates: &[u32], at: u32) -> InputData<'static> {
     InputData::Uniform(immediates.get(at as usize).copied().unwrap_or(0))
-}
-
-/// The buffers of a stage among the resources that a draw binds. Those that are not bound are
-/// empty.
-pub(super) fn buffers<'a>(stage: &Stage, bindings: &'a Bindings) -> Vec<Buffer<'a>> {
-    let slots = stage.interface().buffers.iter();
-    let buffers = slots.map(|slot| {
-        if *slot == BufferSlot::IMMEDIATES {
-            let words = &bindings.immediates[..];
-            return Buffer::read_only(words, words.len() * 4);
-        }
-        let (group, binding) = (slot.group, slot.binding);
-        if let Some((buffer, range)) = bindings.buffer(group, binding) {
-            let words = buffer.words().get(range.start / 4..).unwrap_or_default();
-            return Buffer::read_only(words, range.len());
-        }
-        let stored = bindings.storage_buffer(group, binding);
-        stored.map_or_else(Buffer::default, |(buffer, range)| {
-            let words = buffer.words().get(range.start / 4..).unwrap_or_default();
-            Buffer::shared(words, range.len())
-        })
-    });
-    buffers.collect()
 }

@@ -1,6 +1,6 @@
 //! A compute shader as text.
 
-use super::batch::{buffers, immediate};
+use super::batch::immediate;
 use super::stage::Stage;
 use super::{LinkError, StageSource, layouts};
 use crate::order::Accesses;
@@ -133,7 +133,7 @@ impl ComputeProgram for TextCompute {
         work: &Workgroups,
     ) -> Result<(), ComputeStopped> {
         let stage = &self.stage;
-        let (buffers, textures) = (buffers(stage, bindings), stage.textures(bindings));
+        let (buffers, textures) = (stage.buffers(bindings), stage.textures(bindings));
         let mut inputs = Vec::new();
         for id in work.ids() {
             let of_group = stage.interface().inputs.iter();
@@ -142,7 +142,7 @@ impl ComputeProgram for TextCompute {
             inputs.extend(of_group.map(|input| self.input(*input, [id, work.count], immediates)));
             let packets = self.cover.len();
             stage
-                .run(level, (&textures, &buffers), packets, (&inputs, &[]))
+                .run(level, (&textures, buffers.all()), packets, (&inputs, &[]))
                 .map_err(|stopped| match stopped {
                     Stopped::Budget => ComputeStopped::Budget,
                     Stopped::Memory => ComputeStopped::OutOfMemory,

@@ -1,11 +1,12 @@
 //! Machine code of a stage, made when it is first run, and made better when it runs often.
 
+use super::workspaces::Workspaces;
 use estampe_ir::interpreter::{Run, Stopped};
 use estampe_ir::lanes::Kernel;
 use estampe_simd::Level;
-use estampe_x86::{Code, Isa, Scratch, Tier};
+use estampe_x86::{Code, Isa, Tier};
+use std::sync::OnceLock;
 use std::sync::atomic::{AtomicU64, Ordering};
-use std::sync::{Mutex, OnceLock, PoisonError};
 
 /// The packets, or their iterations of loops, after which a stage is worth the time that better
 /// code takes to make: that of some thousand packets.
@@ -24,8 +25,7 @@ struct OfIsa {
     optimised: OnceLock<Option<Code>>,
     /// Packets that the fast code has run, and their jumps backwards, about.
     work: AtomicU64,
-    /// Memory that no run uses now.
-    scratch: Mutex<Vec<Scratch>>,
+    workspaces: Workspaces,
 }
 
 impl MachineCode {
@@ -36,20 +36,13 @@ impl MachineCode {
         level: Level,
         run: &Run<'_>,
     ) -> Option<Result<(), Stopped>> {
-        let at = Isa::ALL.iter().position(|isa| isa.name() == level.name())?;
-        let of_isa = &self.of_isa[at];
-        let isa = Isa::ALL[at];
+        let isa = Isa::of(level)?;
+        let of_isa = &self.of_isa[isa as usize];
         let code = of_isa.code(kernel, isa)?;
-        let pool = || {
-            of_isa
-                .scratch
-                .lock()
-                .unwrap_or_else(PoisonError::into_inner)
-        };
-        let mut scratch = pool().pop().unwrap_or_default();
-        let stopped = code.run(level, run, &mut scratch);
-        let jumps = scratch.jumps(code, run);
-        pool().push(scratch);
+        let (stopped, jumps) = of_isa.workspaces.with(|scratch| {
+            let stopped = code.run(level, run, scratch);
+            (stopped, scratch.jumps(code, run))
+        });
         of_isa.count(kernel, isa, (run.packets as u64).saturating_add(jumps));
         Some(stopped)
     }

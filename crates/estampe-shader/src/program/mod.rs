@@ -5,6 +5,7 @@
 //! stage behind the one interface by which all shaders run. [`TextCompute`] is a compute shader.
 
 mod batch;
+mod buffers;
 mod compute;
 mod facts;
 mod layouts;
@@ -13,11 +14,12 @@ mod machine;
 mod samples;
 mod stage;
 mod textures;
+mod workspaces;
 
 pub use compute::{MAX_INVOCATIONS, TextCompute};
 pub use link::{LinkError, VaryingSlot};
 
-use batch::{Widths, buffers, with_fragments, with_vertices};
+use batch::{Widths, with_fragments, with_vertices};
 use estampe_ir::tree::{Tree, passes};
 use estampe_simd::Level;
 use estampe_types::shader::StoppedBatches;
@@ -150,7 +152,7 @@ impl Program for TextProgram {
         if self.stopped.is_stopped() {
             return;
         }
-        let (buffers, textures) = (buffers(stage, bindings), stage.textures(bindings));
+        let (buffers, textures) = (stage.buffers(bindings), stage.textures(bindings));
         let places = (
             self.widths,
             self.links.of_vertex(),
@@ -163,7 +165,12 @@ impl Program for TextProgram {
             &self.attributes,
             batch,
             |packets, inputs, outputs| {
-                stage.run(level, (&textures, &buffers), packets, (inputs, outputs))
+                stage.run(
+                    level,
+                    (&textures, buffers.all()),
+                    packets,
+                    (inputs, outputs),
+                )
             },
         );
         if run.is_err() {
@@ -178,11 +185,16 @@ impl Program for TextProgram {
         if self.stopped.is_stopped() {
             return;
         }
-        let (buffers, textures) = (buffers(stage, bindings), stage.textures(bindings));
+        let (buffers, textures) = (stage.buffers(bindings), stage.textures(bindings));
         let gradients = &self.interface.gradients[..];
         let places = (self.widths, gradients, &bindings.immediates[..]);
         let run = with_fragments(stage, places, batch, |packets, inputs, outputs| {
-            stage.run(level, (&textures, &buffers), packets, (inputs, outputs))
+            stage.run(
+                level,
+                (&textures, buffers.all()),
+                packets,
+                (inputs, outputs),
+            )
         });
         if run.is_err() {
             self.stopped.stop();

@@ -1,5 +1,6 @@
 //! A stage of a program: its kernel, as machine code or as bytecode.
 
+use super::buffers::BoundBuffers;
 use super::machine::MachineCode;
 use super::textures::BoundTextures;
 use estampe_ir::interface::Interface;
@@ -47,6 +48,11 @@ impl Stage {
 
     pub(super) fn interface(&self) -> &Interface {
         &self.kernel.interface
+    }
+
+    /// The buffers among the resources that a draw or dispatch binds.
+    pub(super) fn buffers<'a>(&self, bindings: &'a Bindings) -> BoundBuffers<'a> {
+        BoundBuffers::new(bindings, &self.interface().buffers)
     }
 
     /// The textures among the resources that a draw or dispatch binds.

@@ -13,7 +13,6 @@ use estampe_texture::{
 };
 use estampe_types::{Bindings, StorageTexture, Vec4};
 use std::cell::OnceCell;
-use std::sync::Arc;
 
 /// The textures that a draw binds, as a kernel numbers them.
 #[derive(Debug)]
@@ -23,7 +22,7 @@ pub(super) struct BoundTextures<'a> {
     samplers: &'a [TextureSlot],
     /// For each texture and sampler, both together; made when it is first sampled. `None` inside
     /// where the sampler cannot sample the texture.
-    sampled: Cells<Option<Arc<SampledTexture>>>,
+    sampled: Cells<Option<&'a SampledTexture>>,
     /// For each texture its view, found when texels are first loaded; `None` inside for a texture
     /// that shaders store to.
     loaded: Cells<Option<&'a TexelView>>,
@@ -82,7 +81,7 @@ impl<'a> BoundTextures<'a> {
         *found
     }
 
-    fn sampled(&self, texture: u32, sampler: u32) -> Option<&SampledTexture> {
+    fn sampled(&self, texture: u32, sampler: u32) -> Option<&'a SampledTexture> {
         let at = texture as usize * self.samplers.len() + sampler as usize;
         let made = self.sampled.get(at)?.get_or_init(|| {
             let slot = |slots: &[TextureSlot], at: u32| {
@@ -93,7 +92,7 @@ impl<'a> BoundTextures<'a> {
             self.bindings
                 .texture_with_sampler(texture, slot(self.samplers, sampler)?)
         });
-        made.as_deref()
+        *made
     }
 }
 

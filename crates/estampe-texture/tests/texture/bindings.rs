@@ -62,7 +62,7 @@ fn textures_are_found_by_number_and_are_zeros_where_none_is_bound() {
     let pair = |texture, sampler| bindings.texture_with_sampler([0, texture], [0, sampler]);
     let first = pair(5, 6).expect("both are bound");
     let second = pair(5, 6).expect("both are bound");
-    assert!(Arc::ptr_eq(&first, &second));
+    assert!(std::ptr::eq(first, second));
     assert!(
         [pair(3, 6), pair(5, 3), pair(4, 6)]
             .iter()
