@@ -68,7 +68,8 @@ pub(crate) struct Frame {
     pub(crate) pointers: u32,
     pub(crate) steps: u32,
     inputs: u32,
-    outputs: u32,
+    /// The bytes of the pointers of a packet: whole lines.
+    packet_pointers: u32,
     /// The first byte of the state of the first packet.
     state: u32,
     /// The buffer that is the memory of the work-group.
@@ -109,7 +110,9 @@ impl Frame {
         let sink = part(1, PACKET)?;
         let arguments = part(argument_packets as usize, PACKET)?;
         let state = part(usize::from(is_workgroup), PACKET)?;
-        let moving = (inputs + outputs).checked_mul(packets_of_pass)?;
+        // Those of each packet of a pass begin a line.
+        let of_packet = (inputs + outputs).checked_next_multiple_of(PACKET as usize / 8)?;
+        let moving = of_packet.checked_mul(packets_of_pass)?;
         let pointers = part(moving, 8)?;
         let steps = part(moving, 8)?;
         let mut locals = Vec::new();
@@ -135,7 +138,7 @@ impl Frame {
             pointers,
             steps,
             inputs: u32::try_from(inputs).ok()?,
-            outputs: u32::try_from(outputs).ok()?,
+            packet_pointers: u32::try_from(of_packet).ok()?.checked_mul(8)?,
             state,
             workgroup: u32::try_from(interface.buffers.len()).ok()?,
             still,
@@ -193,12 +196,17 @@ impl Frame {
 
     /// The pointer to an input of a packet of the pass.
     pub(crate) fn input(&self, at: u32, packet: u32) -> u32 {
-        self.pointers + (packet * (self.inputs + self.outputs) + at) * 8
+        self.pointers + packet * self.packet_pointers + at * 8
     }
 
     /// The pointer to an output of a packet of the pass.
     pub(crate) fn output(&self, at: u32, packet: u32) -> u32 {
         self.input(self.inputs + at, packet)
+    }
+
+    /// The lines of the pointers of a packet.
+    pub(crate) fn packet_lines(&self) -> usize {
+        (self.packet_pointers / PACKET) as usize
     }
 
     /// The bytes of the pointers, and of the steps: whole lines.

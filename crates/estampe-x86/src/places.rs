@@ -2,6 +2,7 @@
 
 use estampe_ir::Type;
 use estampe_ir::interpreter::{InputData, OutputData};
+use std::hint::select_unpredictable;
 
 /// Where the packets of an input or output are in a run.
 #[derive(Debug, Clone, Copy)]
@@ -13,6 +14,8 @@ pub(crate) struct Track {
     /// The packets that are in memory, from the first on. The others are at a place that does not
     /// move; all are, of an input that is the same in all packets or an output that goes nowhere.
     packets: usize,
+    /// The address of that place.
+    still: usize,
 }
 
 impl Track {
@@ -21,6 +24,7 @@ impl Track {
         start: 0,
         step: 0,
         packets: 0,
+        still: 0,
     };
 
     /// The packets in a slice of which packet 0 is at `first`, and the others `stride` elements
@@ -42,7 +46,14 @@ impl Track {
                 // A stride of 0 leads nowhere else, so the last packet is then inside.
                 behind.div_ceil(stride)
             },
+            still: 0,
         }
+    }
+
+    /// The same with an address for what is not in memory.
+    #[inline(always)]
+    pub(crate) fn or_still(self, still: usize) -> Self {
+        Self { still, ..self }
     }
 
     /// An input's packets.
@@ -110,11 +121,11 @@ impl Track {
         packet < self.packets
     }
 
-    /// The address of a packet; `None` if it is at the place that does not move.
+    /// The address of a packet.
     #[inline(always)]
-    pub(crate) fn address(&self, packet: usize) -> Option<usize> {
+    pub(crate) fn address(&self, packet: usize) -> usize {
         let address = self.start.wrapping_add(self.step.wrapping_mul(packet));
-        (packet < self.packets).then_some(address)
+        select_unpredictable(packet < self.packets, address, self.still)
     }
 
     /// The bytes from one packet to the next.

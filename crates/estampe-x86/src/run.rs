@@ -29,6 +29,9 @@ pub struct Scratch {
 /// Bytes of a line.
 const LINE: u32 = PACKET;
 
+/// Words of eight bytes of a line.
+const WORDS: usize = LINE as usize / 8;
+
 impl Scratch {
     /// The jumps backwards of the last run of a code, about: those of its last pass for every
     /// packet; of a work-group all.
@@ -224,22 +227,26 @@ impl Code {
     fn find_packets(&self, run: &Run<'_>, tracks: &mut Vec<Track>, lines: &mut [Line]) {
         tracks.clear();
         let last = run.packets - 1;
+        let frame = lines.as_mut_ptr().expose_provenance();
         for (at, &kind) in (0..).zip(&self.input_types) {
             let given = run.inputs.get(at as usize);
             let track = given.map_or(Track::STILL, |input| Track::of_input(input, kind, last));
+            let still = self.frame.still + at * PACKET;
             if !track.moves_up_to(last) {
-                let still = self.frame.still + at * PACKET;
                 lines[(still / LINE) as usize] = splat(match (given, kind) {
                     (Some(InputData::Uniform(word)), Type::Word) => *word,
                     (Some(InputData::Uniform(1..)), Type::Mask) => u32::MAX,
                     _ => 0,
                 });
             }
-            tracks.push(track);
+            tracks.push(track.or_still(frame + still as usize));
         }
+        // An output that goes nowhere goes into the sink.
+        let sink = frame + self.frame.sink as usize;
         for (at, &kind) in self.output_types.iter().enumerate() {
             let given = run.outputs.get(at);
-            tracks.push(given.map_or(Track::STILL, |to| Track::of_output(to, kind, last)));
+            let track = given.map_or(Track::STILL, |to| Track::of_output(to, kind, last));
+            tracks.push(track.or_still(sink));
         }
     }
 
@@ -252,21 +259,19 @@ impl Code {
         (first, count): (usize, usize),
         state: usize,
     ) {
-        let frame = lines.as_mut_ptr().expose_provenance();
-        let steps = self.frame.pointer_bytes() as usize;
-        let inputs = self.input_types.len();
-        let mut pointer = self.frame.pointers as usize + state;
+        let of_packet = self.frame.packet_lines();
+        let line_of = |offset: u32| (offset as usize + state) / LINE as usize;
+        let (pointers, steps) = (line_of(self.frame.pointers), line_of(self.frame.steps));
+        let (before, steps) = lines.split_at_mut(steps);
+        let mut places = before[pointers..].iter_mut().zip(steps);
         for packet in first..first + count {
-            let mut still = frame + self.frame.still as usize;
-            for (at, track) in tracks.iter().enumerate() {
-                // An output that goes nowhere goes into the sink.
-                if at == inputs {
-                    still = frame + self.frame.sink as usize;
+            let of_packet = places.by_ref().take(of_packet);
+            for ((pointers, steps), tracks) in of_packet.zip(tracks.chunks(WORDS)) {
+                let words = pointers.0.iter_mut().zip(&mut steps.0);
+                for ((pointer, step), track) in words.zip(tracks) {
+                    *pointer = track.address(packet) as u64;
+                    *step = track.step().wrapping_mul(count) as u64;
                 }
-                set_pointer(lines, pointer, track.address(packet).unwrap_or(still));
-                set_pointer(lines, pointer + steps, track.step().wrapping_mul(count));
-                still += if at < inputs { PACKET as usize } else { 0 };
-                pointer += 8;
             }
         }
     }
