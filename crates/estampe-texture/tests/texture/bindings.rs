@@ -69,3 +69,36 @@ fn textures_are_found_by_number_and_are_zeros_where_none_is_bound() {
             .all(Option::is_none)
     );
 }
+
+/// Whichever thread asks first, all are given the same texture with each sampler.
+#[test]
+fn threads_share_what_a_texture_and_its_samplers_become() {
+    let texture = BoundTexture::new(white().view().clone(), None, Level::best());
+    let samplers = [0.0, 1.0, 2.0, 3.0, 4.0].map(|lod_min_clamp| SamplerDescriptor {
+        lod_min_clamp,
+        ..SamplerDescriptor::linear()
+    });
+    let all_of = |first: usize| {
+        let mut found = [std::ptr::null(); 5];
+        for at in (0..5).map(|step| (first + step) % 5) {
+            let sampled = texture.sampled(&samplers[at]).expect("it can sample it");
+            assert_eq!(sampled.sampler(), &samplers[at]);
+            found[at] = std::ptr::from_ref(sampled);
+        }
+        found.map(<*const SampledTexture>::addr)
+    };
+    let found: Vec<[usize; 5]> = std::thread::scope(|scope| {
+        let threads: Vec<_> = (0..8)
+            .map(|first| scope.spawn(move || all_of(first)))
+            .collect();
+        let joined = threads.into_iter().map(std::thread::ScopedJoinHandle::join);
+        joined.map(|all| all.expect("none panics")).collect()
+    });
+    assert!(found.iter().all(|all| *all == found[0]));
+    // One that cannot sample it is found out once, too.
+    let none = SamplerDescriptor {
+        lod_min_clamp: f32::NAN,
+        ..SamplerDescriptor::default()
+    };
+    assert!(texture.sampled(&none).is_none() && texture.sampled(&none).is_none());
+}
