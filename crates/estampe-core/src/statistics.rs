@@ -82,6 +82,10 @@ pub struct Statistics {
     /// Tiles of which some attachment was in the memory of a worker alone.
     #[doc(hidden)]
     pub tiles_in_workers: u64,
+    /// Packets of tiles of which colours were not cleared, as triangles were shown everywhere. They
+    /// depend on the SIMD level.
+    #[doc(hidden)]
+    pub packets_shown_uncleared: u64,
     /// Time of the geometry side.
     pub geometry: Duration,
     /// Time of the tile side.
@@ -130,6 +134,7 @@ impl std::ops::AddAssign for Statistics {
         self.groups_of_geometry += other.groups_of_geometry;
         self.tiles_resolved += other.tiles_resolved;
         self.tiles_in_workers += other.tiles_in_workers;
+        self.packets_shown_uncleared += other.packets_shown_uncleared;
         self.geometry += other.geometry;
         self.raster += other.raster;
     }

@@ -1,11 +1,12 @@
 //! Clearing a tile's attachments.
 
-use super::{MAX_TARGETS, TileJob};
+use super::{MAX_TARGETS, PacketSet, TileJob};
 use crate::attachment::RenderTarget;
 use crate::commands::{Discards, LoadOp, RenderPass};
 use crate::pipeline::color_target::MAX_WORDS;
 use estampe_format::AttachmentCodec;
 use estampe_simd::{LANES, Lanes, Level, SimdBase, dispatch, f32x16, u32x16};
+use std::ops::Range;
 
 /// The values that a pass clears attachments to, in each tile.
 #[derive(Debug, Clone, Copy, Default)]
@@ -56,29 +57,71 @@ impl Clear {
         }
     }
 
-    /// Clears a tile.
-    pub(super) fn run(&self, level: Level, job: &mut TileJob<'_>) {
-        dispatch!(level, s => self.run_lanes(s, job));
+    /// The first attachment whose colours may wait until it is known where a tile shows triangles,
+    /// so that they are cleared elsewhere alone. The first of all holds the triangles' ids if its
+    /// texels have one word.
+    pub(super) fn first_waiting(&self) -> usize {
+        usize::from(self.colors[0].is_some_and(|(_, words)| words == 1))
+    }
+
+    /// True if some attachment from a number on is cleared.
+    pub(super) fn clears_colors_from(&self, first: usize) -> bool {
+        self.colors.iter().skip(first).any(Option::is_some)
+    }
+
+    /// Clears a tile's depth and stencil values.
+    pub(super) fn depth_stencil(&self, level: Level, job: &mut TileJob<'_>) {
+        dispatch!(level, s => self.depth_stencil_lanes(s, job));
+    }
+
+    /// Clears colours of a tile, of the attachments in a range: of all packets, or, of one sample,
+    /// of those in a set.
+    pub(super) fn colors(
+        &self,
+        level: Level,
+        job: &mut TileJob<'_>,
+        attachments: Range<usize>,
+        packets: Option<&PacketSet>,
+    ) {
+        if self.clears_colors_from(attachments.start) {
+            dispatch!(level, s => self.color_lanes(s, job, attachments, packets));
+        }
     }
 
     /// Sixteen elements a store: `fill` is compiled for the least processor.
     #[inline(always)]
-    fn run_lanes<S: Lanes>(&self, s: S, job: &mut TileJob<'_>) {
-        for (lines, color) in job.colors.iter_mut().zip(&self.colors) {
+    fn color_lanes<S: Lanes>(
+        &self,
+        s: S,
+        job: &mut TileJob<'_>,
+        attachments: Range<usize>,
+        packets: Option<&PacketSet>,
+    ) {
+        let images = job.colors.iter_mut().zip(&self.colors);
+        for (lines, color) in images.take(attachments.end).skip(attachments.start) {
             let Some((words, count)) = color else {
                 continue;
             };
-            for (word, bits) in words.iter().enumerate().take(*count) {
-                let value = <u32x16<S> as SimdBase<S>>::splat(s, *bits);
-                if *count == 1 {
-                    lines.iter_mut().for_each(|line| value.store_array(line));
-                    break;
-                }
-                for line in lines.iter_mut().skip(word).step_by(*count) {
-                    value.store_array(line);
+            let words = &words[..*count];
+            if let ([word], None) = (words, packets) {
+                let value = <u32x16<S> as SimdBase<S>>::splat(s, *word);
+                lines.iter_mut().for_each(|line| value.store_array(line));
+                continue;
+            }
+            for (packet, texels) in lines.chunks_exact_mut(words.len()).enumerate() {
+                let is_cleared = packets
+                    .is_none_or(|set| set[packet / 64 % set.len()] >> (packet % 64) & 1 == 1);
+                if is_cleared {
+                    for (line, word) in texels.iter_mut().zip(words) {
+                        <u32x16<S> as SimdBase<S>>::splat(s, *word).store_array(line);
+                    }
                 }
             }
         }
+    }
+
+    #[inline(always)]
+    fn depth_stencil_lanes<S: Lanes>(&self, s: S, job: &mut TileJob<'_>) {
         if let Some(stencil) = self.stencil {
             job.stencil.fill([stencil; LANES]);
         }

@@ -25,7 +25,7 @@ use crate::layout::TileGrid;
 use crate::per_sample::color_writer::ColorWriter;
 use crate::per_sample::hiz::HierarchicalZ;
 use crate::plan::tile_plan::TilePlan;
-use crate::raster::{SampleSet, TileShape};
+use crate::raster::{MAX_PACKETS, SampleSet, TileShape};
 use crate::statistics::Statistics;
 use crate::tile_path::TilePath;
 use estampe_simd::{LANES, Level};
@@ -35,6 +35,9 @@ use worker_tile::WorkerTile;
 
 /// The most colour targets of a pass.
 pub(crate) const MAX_TARGETS: usize = 8;
+
+/// Packets of a tile, one bit each.
+type PacketSet = [u64; MAX_PACKETS / 64];
 
 /// Boxes of fewer packets than this are not worth asking hierarchical z for.
 const HIZ_PACKETS: i32 = 16;
@@ -103,6 +106,8 @@ pub(crate) struct TileScratch<const N: usize> {
     in_order: in_order::InOrderScratch<N>,
     visibility: visibility::VisibilityScratch<N>,
     tile: WorkerTile,
+    /// True if colours of the tile wait to be cleared.
+    colors_wait: bool,
     pub(crate) statistics: Statistics,
 }
 
@@ -143,11 +148,13 @@ fn draw_into<const N: usize>(
                 visibility::add(pass, (&work, entries), job, scratch);
             } else {
                 visibility::resolve(pass, job, scratch);
+                clear_colors(pass, job, scratch);
                 in_order::draw(&work, entries, job, scratch);
             }
         }
     }
     visibility::resolve(pass, job, scratch);
+    clear_colors(pass, job, scratch);
     resolve_samples(pass, job, scratch);
 }
 
@@ -172,8 +179,27 @@ fn resolve_samples<const N: usize>(
 }
 
 fn begin<const N: usize>(pass: &TilePass<'_>, job: &mut TileJob<'_>, scratch: &mut TileScratch<N>) {
-    pass.clear.run(pass.level, job);
+    let waiting = if N == 1 {
+        pass.clear.first_waiting()
+    } else {
+        MAX_TARGETS
+    };
+    pass.clear.depth_stencil(pass.level, job);
+    pass.clear.colors(pass.level, job, 0..waiting, None);
+    scratch.colors_wait = pass.clear.clears_colors_from(waiting);
     scratch.hiz.begin(pass.clear.depth);
+}
+
+/// Clears the colours of the tile that still wait for it.
+fn clear_colors<const N: usize>(
+    pass: &TilePass<'_>,
+    job: &mut TileJob<'_>,
+    scratch: &mut TileScratch<N>,
+) {
+    if std::mem::take(&mut scratch.colors_wait) {
+        let waiting = pass.clear.first_waiting()..MAX_TARGETS;
+        pass.clear.colors(pass.level, job, waiting, None);
+    }
 }
 
 impl<const N: usize> TileScratch<N> {

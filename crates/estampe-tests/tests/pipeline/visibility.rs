@@ -2,10 +2,13 @@
 //! are resolved by the order of drawing.
 
 use estampe::TilePath;
-use estampe_tests::geometry::{Style, Vertex, triangles};
-use estampe_tests::shaders::{Colored, FlatColored, Halved, Probe};
+use estampe_tests::geometry::{Style, Vertex, triangles, values, whole_target};
+use estampe_tests::shaders::{Colored, FlatColored, Halved, Layers, Probe};
 use estampe_tests::{Case, CaseDraw, ExpectedPaths, Random, TestShader, check_paths};
-use estampe_types::state::{BlendState, CompareFunction, CullMode, DepthState, ScissorRect};
+use estampe_types::TextureFormat;
+use estampe_types::state::{
+    BlendState, ColorWrites, CompareFunction, CullMode, DepthState, ScissorRect,
+};
 
 const ORDERED: [CompareFunction; 4] = [
     CompareFunction::Less,
@@ -174,4 +177,49 @@ fn opaque_and_blended_draws_in_turn() {
             case
         },
     );
+}
+
+/// Colours wait to be cleared until it is known where triangles are shown.
+///
+/// Rows: O7, U3.
+#[test]
+fn packets_that_triangles_cover_are_not_cleared() {
+    let paths = ExpectedPaths(&[
+        TilePath::VisibilityPerPrimitive,
+        TilePath::VisibilityCrossTriangle,
+        TilePath::VisibilityQuads,
+        TilePath::InOrderQuads,
+    ]);
+    let statistics = check_paths("visibility/uncleared", 120, paths, |random| {
+        let mut case = Case::new([128, 70], random.pick(&[1, 1, 1, 4]));
+        let formats = [
+            TextureFormat::Rgba16Float,
+            TextureFormat::Rgba32Float,
+            TextureFormat::Bgra8Unorm,
+        ];
+        case.format = Some(random.pick(&formats));
+        if random.once_in(2) {
+            case.more_formats
+                .push(random.pick(&[TextureFormat::Rgba8Unorm, TextureFormat::Rgba16Float]));
+        }
+        case.clear_color = random.four(0.0, 1.0);
+        for draw in 0..=random.below(3) {
+            let corner = values(random);
+            let vertices = match (draw, random.below(3)) {
+                (0, 1..) => whole_target(case.size, |[x, y]| corner.map(|value| value + x - y)),
+                (_, 0) => triangles(random, Style::Small, case.size, 9),
+                _ => triangles(random, Style::Large, case.size, 2),
+            };
+            let mut draw = opaque(random, &vertices);
+            if !case.more_formats.is_empty() {
+                draw.shader = Layers::<2>(0).into();
+            }
+            draw.write_mask =
+                random.pick(&[ColorWrites::ALL, ColorWrites::ALL, ColorWrites::COLOR]);
+            draw.blend = random.pick(&[None, None, None, Some(BlendState::ALPHA_BLENDING)]);
+            case.draws.push(draw);
+        }
+        case
+    });
+    assert!(statistics.packets_shown_uncleared > 0, "all were cleared");
 }

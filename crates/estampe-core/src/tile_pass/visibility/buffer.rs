@@ -145,6 +145,11 @@ impl<const N: usize> VisibilityBuffer<N> {
         next
     }
 
+    /// True if a packet shows a triangle at every sample.
+    pub(super) fn shows_everywhere(&self, packet: usize) -> bool {
+        self.unresolved[packet] == [u16::MAX; N] || self.single.of_packet(packet).is_some()
+    }
+
     /// Ends the run.
     pub(super) fn clear(&mut self) {
         self.triangles.clear();

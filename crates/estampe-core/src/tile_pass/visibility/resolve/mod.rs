@@ -24,10 +24,11 @@ use super::writer::IdStorage;
 use super::{ONLY_WIDE, VisibilityScratch};
 use crate::fragment::queue::PrimitivePacket;
 use crate::pipeline::RenderPipeline;
+use crate::pipeline::color_target::ColorTarget;
 use crate::plan::tile_plan::TilePlan;
 use crate::raster::{Covered, MAX_PACKETS, SampleSet, packet_origin};
 use crate::tile_pass::fragments::Fragments;
-use crate::tile_pass::{TileJob, TilePass, TileScratch, write_colors};
+use crate::tile_pass::{MAX_TARGETS, PacketSet, TileJob, TilePass, TileScratch, write_colors};
 use early::write_cross_triangle;
 use estampe_simd::{LANES, Lanes, dispatch};
 use estampe_types::Interpolation;
@@ -42,9 +43,6 @@ const FEW_IDLE: u32 = 13;
 
 /// Lines of the next tile that are prefetched for a visible packet, at most.
 const MOST_AHEAD: usize = 8;
-
-/// Packets of a tile, one bit each.
-type PacketSet = [u64; MAX_PACKETS / 64];
 
 /// Memory of the resolve.
 #[derive(Debug)]
@@ -89,15 +87,16 @@ pub(in crate::tile_pass) fn resolve<const N: usize>(
     scratch: &mut TileScratch<N>,
 ) {
     rasterize_waiting(pass, job, scratch);
+    if scratch.visibility.buffer.groups.is_empty() {
+        return;
+    }
+    clear_others(pass, job, scratch);
     let VisibilityScratch {
         buffer,
         resolve,
         cross,
         ..
     } = &mut scratch.visibility;
-    if buffer.groups.is_empty() {
-        return;
-    }
     // Draws without colours have no ids; all others have theirs in the same place.
     let mut plans = buffer
         .groups
@@ -138,6 +137,36 @@ pub(in crate::tile_pass) fn resolve<const N: usize>(
     }
     scratch.visibility.buffer.clear();
     scratch.visibility.cross.clear();
+}
+
+/// Clears the colours that wait for it, but for packets in which triangles that replace all of a
+/// texel are shown everywhere. They are shaded next.
+fn clear_others<const N: usize>(
+    pass: &TilePass<'_>,
+    job: &mut TileJob<'_>,
+    scratch: &mut TileScratch<N>,
+) {
+    if !std::mem::take(&mut scratch.colors_wait) {
+        return;
+    }
+    let buffer = &scratch.visibility.buffer;
+    let replaces = |sub_draw: u32| {
+        let plan = &pass.plans[sub_draw as usize];
+        let targets = plan.pipeline.color_targets();
+        let replaces_all = targets.iter().all(ColorTarget::replaces)
+            && !pass.clear.clears_colors_from(targets.len());
+        replaces_all || storage_of(plan) == IdStorage::None
+    };
+    let mut others = [u64::MAX; MAX_PACKETS / 64];
+    if buffer.groups.iter().all(|group| replaces(group.sub_draw)) {
+        for packet in 0..MAX_PACKETS {
+            let is_shown = buffer.shows_everywhere(packet);
+            others[packet / 64] &= !(u64::from(is_shown) << (packet % 64));
+            scratch.statistics.packets_shown_uncleared += u64::from(is_shown);
+        }
+    }
+    let waiting = pass.clear.first_waiting()..MAX_TARGETS;
+    pass.clear.colors(pass.level, job, waiting, Some(&others));
 }
 
 /// A run being resolved.
