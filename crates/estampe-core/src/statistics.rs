@@ -49,6 +49,13 @@ pub struct Statistics {
     /// began. They depend on the SIMD level.
     #[doc(hidden)]
     pub fragments_listed_in_order: [u64; 2],
+    /// Rectangles of two triangles that were drawn in order as one box, once for each tile. They
+    /// depend on the SIMD level.
+    #[doc(hidden)]
+    pub rectangles_in_order: u64,
+    /// Runs that are drawn in order whose fragments shared the queue with those of the run before.
+    #[doc(hidden)]
+    pub queues_kept: u64,
     /// Large triangles whose edges were set up sixteen at a time, once for each tile. They depend
     /// on the SIMD level.
     #[doc(hidden)]
@@ -123,6 +130,8 @@ impl std::ops::AddAssign for Statistics {
             *count += other;
         }
         self.small_triangle_pixels += other.small_triangle_pixels;
+        self.rectangles_in_order += other.rectangles_in_order;
+        self.queues_kept += other.queues_kept;
         self.triangles_gathered_in_tiles += other.triangles_gathered_in_tiles;
         self.packets_failing_depth += other.packets_failing_depth;
         self.triangles_set_up_in_lanes += other.triangles_set_up_in_lanes;

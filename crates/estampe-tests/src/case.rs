@@ -193,6 +193,26 @@ impl CaseDraw {
         }
     }
 
+    /// All that a pipeline is made of, as text: equal texts are of equal states.
+    pub(crate) fn pipeline_state(&self) -> String {
+        let layouts: Vec<_> = self.buffers.iter().map(|(layout, _)| layout).collect();
+        format!(
+            "{:?} {layouts:?} {:?} {:?} {:?} {:?} {:?} {:?} {:?} {:?} {:?} {:?} {:?}",
+            self.shader,
+            self.primitive,
+            self.depth,
+            self.depth_bias,
+            self.blend,
+            self.write_mask,
+            self.stencil,
+            self.sample_mask,
+            self.alpha_to_coverage,
+            self.sample_shading,
+            self.logic_operation,
+            self.more_targets
+        )
+    }
+
     fn describe(&self) -> String {
         let mut text = format!(
             "{:?}\n    elements {:?} of {:?}, instances {:?}, base vertex {}, {:?}\n    {:?} {:?} {:?} \

@@ -130,10 +130,7 @@ pub(crate) fn with_pass<T>(
     use_pass: impl FnOnce(&RenderPass<'_>) -> T,
 ) -> T {
     let first_draw = u32::try_from(first_draw).expect("few draws");
-    let pipelines: Vec<_> = draws
-        .iter()
-        .map(|draw| pipeline(device, case, draw))
-        .collect();
+    let pipelines = pipelines(device, case, draws);
     let buffers = draws.iter().map(|draw| Buffers::new(device, draw));
     let buffers: Vec<Buffers> = buffers.collect();
     let commands: Vec<_> = draws
@@ -238,6 +235,21 @@ fn bind_groups(device: &Device, bindings: &Bindings) -> Vec<(BindGroup, Vec<u32>
         (group.expect("resources that fit the layout"), offsets)
     });
     groups.collect()
+}
+
+/// The draws' pipelines. A draw whose state is that of the one before has the same one.
+fn pipelines(device: &Device, case: &Case, draws: &[CaseDraw]) -> Vec<RenderPipeline> {
+    let mut pipelines: Vec<RenderPipeline> = Vec::new();
+    let mut before = String::new();
+    for draw in draws {
+        let state = draw.pipeline_state();
+        match pipelines.last() {
+            Some(last) if state == before => pipelines.push(last.clone()),
+            _ => pipelines.push(pipeline(device, case, draw)),
+        }
+        before = state;
+    }
+    pipelines
 }
 
 fn pipeline(device: &Device, case: &Case, draw: &CaseDraw) -> RenderPipeline {

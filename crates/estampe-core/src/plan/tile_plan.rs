@@ -87,6 +87,17 @@ impl TilePlan<'_> {
             && self.pipeline.is_same(other.pipeline)
             && self.tests.stored.range == other.tests.stored.range
     }
+
+    /// Returns true if fragments of both plans that are drawn in order may wait in one queue.
+    pub(crate) fn queues_like(&self, other: &Self) -> bool {
+        self.shades_like(other)
+            && self.path == other.path
+            && self.timing == other.timing
+            && self.tests == other.tests
+            && self.blend_constant == other.blend_constant
+            && self.query.is_none()
+            && other.query.is_none()
+    }
 }
 
 impl<'a> TileState<'a> {

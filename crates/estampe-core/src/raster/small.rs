@@ -11,6 +11,7 @@
 //!       t₀ t₁ t₂ … t₁₅                 E = c + a·x + b·y ≥ 0 of three edges, for sixteen triangles
 //! ```
 
+use super::parts::Parts;
 use super::pixel_list::{PixelList, Pixels};
 use super::{SampleSet, TileShape};
 use crate::bounds::pixel_rect::PixelRect;
@@ -40,45 +41,6 @@ pub(crate) struct Boxes {
     pub(crate) side: i32,
     /// True if they begin at a quad, so that they hold quads whole.
     pub(crate) quads: bool,
-}
-
-/// Lanes that are a part of a larger triangle, whose box has up to twice [`SIDE`] columns and rows:
-/// a quarter of it, of [`SIDE`] columns and rows.
-#[derive(Debug, Default)]
-#[repr(C, align(64))]
-pub(crate) struct Parts {
-    /// By lane: 0 or [`SIDE`], the part's first column and row in the box.
-    right: [i32; LANES],
-    below: [i32; LANES],
-    lanes: u16,
-}
-
-impl Parts {
-    /// No lane is a part.
-    pub(crate) const WHOLE: Self = Self {
-        right: [0; LANES],
-        below: [0; LANES],
-        lanes: 0,
-    };
-
-    /// The quarters of a triangle that is divided.
-    pub(crate) const QUARTERS: [[i32; 2]; 4] = [[0, 0], [SIDE, 0], [0, SIDE], [SIDE, SIDE]];
-
-    /// Makes a lane a part, or a whole triangle.
-    #[inline(always)]
-    pub(crate) fn set(&mut self, lane: usize, part: Option<[i32; 2]>) {
-        let [right, below] = part.unwrap_or_default();
-        (self.right[lane], self.below[lane]) = (right, below);
-        self.lanes = self.lanes & !(1 << lane) | u16::from(part.is_some()) << lane;
-    }
-
-    #[inline(always)]
-    fn offsets<S: Lanes>(&self, s: S) -> (i32x16<S>, i32x16<S>) {
-        (
-            i32x16::load_array_ref(s, &self.right),
-            i32x16::load_array_ref(s, &self.below),
-        )
-    }
 }
 
 /// The pixels of sixteen boxes that may be covered.
@@ -142,7 +104,7 @@ impl<const N: usize> SmallBoxes<N> {
     }
 
     /// [`SmallBoxes::cover`] of the triangles whose boxes are as given, or of parts of larger
-    /// ones, of which all or none are covered.
+    /// ones, of which all or none are covered. Rectangles are of one sample.
     #[inline(always)]
     pub(crate) fn cover_boxes<S: Lanes>(
         &mut self,
@@ -162,8 +124,12 @@ impl<const N: usize> SmallBoxes<N> {
         let [x_ends, y_ends] = [0, 1].map(|axis| ends(positions.map(|position| position[axis])));
         let x_first = ((x_min + (255 - x_ends[1])) >> 8).max(splat(tile.x + rect.x0));
         let y_first = ((y0 + (255 - y_ends[1])) >> 8).max(splat(tile.y + rect.y0));
-        let across = ((x_max - x_ends[0]) >> 8).min(splat(tile.x + rect.x1 - 1)) - x_first;
-        let down = ((y2 - y_ends[0]) >> 8).min(splat(tile.y + rect.y1 - 1)) - y_first;
+        // Samples on the right and the lower side of a rectangle are outside.
+        let is_rectangle = s.mask_from_bits(parts.rectangles);
+        let off_side = is_rectangle.select(splat(1), splat(0));
+        let (x_last, y_last) = (x_max - off_side - x_ends[0], y2 - off_side - y_ends[0]);
+        let across = (x_last >> 8).min(splat(tile.x + rect.x1 - 1)) - x_first;
+        let down = (y_last >> 8).min(splat(tile.y + rect.y1 - 1)) - y_first;
         let is_empty = across.simd_lt(splat(0)) | down.simd_lt(splat(0));
         // Boxes of quads begin at a quad: its first column or row may lie before the box.
         let (mut before, mut above) = (splat(0), splat(0));
@@ -171,10 +137,12 @@ impl<const N: usize> SmallBoxes<N> {
             (before, above) = (x_first & splat(1), y_first & splat(1));
         }
         let (mut across, mut down) = (across + before, down + above);
-        let is_part = s.mask_from_bits(parts.lanes);
-        let side = is_part.select(splat(2 * SIDE), splat(boxes.side));
+        let [columns, rows] = parts.divided;
+        let (most, side) = (splat(2 * SIDE), splat(boxes.side));
+        let columns = s.mask_from_bits(columns).select(most, side);
+        let rows = s.mask_from_bits(rows).select(most, side);
         let extent = (x_max - x_min).max(y2 - y0);
-        let is_small = extent.simd_lt(splat(EXTENT)) & across.simd_lt(side) & down.simd_lt(side);
+        let is_small = extent.simd_lt(splat(EXTENT)) & across.simd_lt(columns) & down.simd_lt(rows);
         let small = s.bits_of_mask(is_small) & lanes;
         if small == 0 {
             return 0;
@@ -193,7 +161,15 @@ impl<const N: usize> SmallBoxes<N> {
         let [first_x, first_y] = positions[0];
         let place = [(x_first << 8) + first_x, (y_first << 8) + first_y];
         let [first, second, third] = edges(s, packet, &corners, place);
-        let edges = [first.at_point(), second.at_point(), third.at_point()];
+        let mut edges = [first.at_point(), second.at_point(), third.at_point()];
+        if parts.rectangles != 0 {
+            for edge in &mut edges {
+                // An edge that is inside everywhere.
+                edge.value = is_rectangle.select(splat(0), edge.value);
+                edge.a = is_rectangle.select(splat(0), edge.a);
+                edge.b = is_rectangle.select(splat(0), edge.b);
+            }
+        }
         let pixels = BoxPixels {
             across,
             down,

@@ -145,14 +145,16 @@ fn draw_into<const N: usize>(
             let work = TileWork::new(pass, [number, sub_draw], job.tile);
             scratch.count(work.plan.path, entries);
             if work.plan.path.is_visibility() {
+                in_order::finish(pass, job, scratch);
                 visibility::add(pass, (&work, entries), job, scratch);
             } else {
                 visibility::resolve(pass, job, scratch);
                 clear_colors(pass, job, scratch);
-                in_order::draw(&work, entries, job, scratch);
+                in_order::draw(pass, (&work, entries), job, scratch);
             }
         }
     }
+    in_order::finish(pass, job, scratch);
     visibility::resolve(pass, job, scratch);
     clear_colors(pass, job, scratch);
     resolve_samples(pass, job, scratch);

@@ -2,12 +2,12 @@
 //! that are set up sixteen at a time.
 
 use estampe::TilePath;
-use estampe_tests::geometry::{Style, clip_at, triangles};
+use estampe_tests::geometry::{Style, Vertex, clip_at, triangles};
 use estampe_tests::mixed_draws::Mixture;
 use estampe_tests::shaders::{Colored, Cutout, FlatColored, Gradients, Halved, Probe, Scalar};
 use estampe_tests::{Case, CaseDraw, ExpectedPaths, Random, TestShader, check_paths};
 use estampe_types::TextureFormat;
-use estampe_types::state::{BlendState, CompareFunction, CullMode, DepthState};
+use estampe_types::state::{BlendState, CompareFunction, CullMode, DepthState, ScissorRect};
 
 /// Triangles of a few pixels, some drawn twice at the same depths, so that only their order tells
 /// which is visible; in between a few larger ones.
@@ -231,5 +231,116 @@ fn middling_triangles_in_order_are_divided() {
             packets > 0 && fragments > packets * 8,
             "{samples} samples: {fragments} fragments are in {packets} packets"
         );
+    }
+}
+
+/// Two triangles of a box with level sides, in any order and from any corner, whose values change
+/// along x, along y, or not; now and then not quite so.
+fn sprite(random: &mut Random, size: [u32; 2]) -> [Vertex; 6] {
+    let grid = random.pick(&[1.0, 2.0, 16.0, 256.0]);
+    let mut at = |least: f32, most: f32| (random.range(least, most) * grid).round() / grid;
+    let [x, y] = [at(-4.0, 150.0), at(-4.0, 100.0)];
+    let most = 18.0;
+    let [mut right, bottom] = [x + at(0.5, most), y + at(0.5, most)];
+    let w = random.pick(&[1.0, 1.0, 0.3, 7.0]);
+    let depth = random.range(0.0, 1.0);
+    let mut corners = [[0.0; 4]; 4];
+    let is_odd = random.once_in(4);
+    for channel in 0..4 {
+        let [mut a, mut b] = [random.range(0.0, 1.0), random.range(0.0, 1.0)];
+        if is_odd {
+            [a, b] = random.pick(&[[a, b], [-0.0, b], [0.0, -0.0], [a, f32::NAN]]);
+        }
+        let of_corners = match random.below(8) {
+            0..3 => [a, b, a, b],
+            3..6 => [a, a, b, b],
+            6 if is_odd => [a, a, a, b],
+            7 if is_odd => [a, b, b, a],
+            _ => [a; 4],
+        };
+        for (corner, value) in corners.iter_mut().zip(of_corners) {
+            corner[channel] = value;
+        }
+    }
+    let mut places = [[x, y], [right, y], [x, bottom], [right, bottom]];
+    if random.once_in(8) {
+        right += 1.0 / 256.0;
+        places[3] = [right, bottom];
+    }
+    let mut vertices = [0, 1, 2, 3].map(|corner: usize| Vertex {
+        position: clip_at(size, places[corner], depth, w),
+        values: corners[corner],
+    });
+    if random.once_in(8) {
+        vertices[1].position[2] *= 0.9;
+    }
+    let order = match random.below(5) {
+        0 => [0, 1, 3, 0, 3, 2],
+        1 => [0, 2, 3, 0, 3, 1],
+        2 => [3, 0, 1, 3, 0, 2],
+        3 => [1, 3, 0, 3, 2, 0],
+        _ => [0, 1, 2, 1, 2, 3],
+    };
+    order.map(|corner| vertices[corner])
+}
+
+/// Sprites, which are drawn as boxes where both triangles have the same planes, in draws that
+/// differ in scissors alone.
+///
+/// Rows: R1, R6, O5, O9.
+#[test]
+fn rectangles_in_order_are_boxes() {
+    for samples in [1, 4] {
+        let topic = format!("small_triangles/rectangles_{samples}");
+        let paths = ExpectedPaths(&[TilePath::InOrderQuads]);
+        let statistics = check_paths(&topic, 24, paths, |random| {
+            let mut case = Case::new([150, 100], samples);
+            let shader: TestShader = match random.below(6) {
+                0 => Colored.into(),
+                1 => Cutout.into(),
+                2 => Gradients::random(random).into(),
+                3 => Halved.into(),
+                _ => Probe::random(random).into(),
+            };
+            let mut draw = CaseDraw::new(shader, &[]);
+            draw.blend = Some(random.pick(&[
+                BlendState::ADDITIVE,
+                BlendState::PREMULTIPLIED_ALPHA_BLENDING,
+            ]));
+            draw.depth = random.once_in(2).then_some(DepthState {
+                compare: CompareFunction::LessEqual,
+                write_enabled: random.once_in(2),
+            });
+            draw.is_counted = random.once_in(6);
+            for _ in 0..3 {
+                let mut vertices = Vec::new();
+                for _ in 0..40 {
+                    vertices.extend(sprite(random, case.size));
+                    if random.once_in(4) {
+                        vertices.extend(triangles(random, Style::Small, case.size, 1));
+                    }
+                }
+                let of_vertices = CaseDraw::new(Colored, &vertices);
+                let scissor = random.once_in(2).then(|| ScissorRect {
+                    x: random.below(40),
+                    y: random.below(30),
+                    width: 80,
+                    height: 60,
+                });
+                case.draws.push(CaseDraw {
+                    buffers: of_vertices.buffers,
+                    elements: of_vertices.elements,
+                    scissor,
+                    ..draw.clone()
+                });
+            }
+            case
+        });
+        let (rectangles, kept) = (statistics.rectangles_in_order, statistics.queues_kept);
+        assert!(
+            (rectangles > 100) == (samples == 1),
+            "{samples} samples: {rectangles} rectangles"
+        );
+        assert!(kept > 10, "{samples} samples: {kept} runs shared a queue");
     }
 }

@@ -30,6 +30,7 @@ mod flush;
 mod last_packet;
 mod layers;
 mod listed;
+mod rectangle;
 mod shade;
 mod small;
 mod small_lines;
@@ -37,7 +38,7 @@ mod solid;
 mod tests;
 
 use super::fragments::Fragments;
-use super::{HIZ_PACKETS, TileJob, TileScratch, TileWork};
+use super::{HIZ_PACKETS, TileJob, TilePass, TileScratch, TileWork};
 use crate::bounds::bins::BinEntry;
 use crate::bounds::primitives::{LinePrimitive, PointPrimitive, Triangle};
 use crate::fragment::interpolate::{
@@ -53,6 +54,7 @@ use crate::raster::{CoverageList, SampleSet, line, point};
 use crate::tile_path::TilePath;
 use ahead::Ahead;
 use estampe_simd::{Lane, Lanes};
+use estampe_types::Interpolation;
 use estampe_types::state::ConservativeMode;
 use last_packet::LastPacket;
 use shade::PendingQuads;
@@ -68,6 +70,8 @@ pub(super) struct InOrderScratch<const N: usize> {
     covered: CoverageList<N>,
     /// Planes of one triangle's varyings.
     planes: Vec<f32>,
+    /// The chunk and the sub-draw of what waits in the queue for the next run.
+    waiting: Option<[u32; 2]>,
     pending: PendingQuads,
     solid: Solid<N>,
     small: Box<SmallScratch<N>>,
@@ -83,6 +87,7 @@ impl<const N: usize> Default for InOrderScratch<N> {
             list: CoverageList::default(),
             covered: CoverageList::default(),
             planes: Vec::new(),
+            waiting: None,
             pending: PendingQuads::default(),
             solid: Solid::default(),
             small: Box::default(),
@@ -96,55 +101,28 @@ impl<const N: usize> Default for InOrderScratch<N> {
 /// Draws the tile's primitives of one run of a chunk. The SIMD level is entered for each batch of
 /// triangles, each line and each point, and again for what is queued of a primitive: all of it in
 /// one function took the compiler half of the crate's time.
+///
+/// What is queued at the end waits for the next run, if its fragments are drawn alike: draws of a
+/// user interface differ in their scissors alone. [`finish`] ends it.
 pub(super) fn draw<const N: usize>(
-    work: &TileWork<'_>,
-    entries: &[BinEntry],
+    pass: &TilePass<'_>,
+    (work, entries): (&TileWork<'_>, &[BinEntry]),
     job: &mut TileJob<'_>,
     scratch: &mut TileScratch<N>,
 ) {
     let plan = work.plan;
-    let pipeline = plan.pipeline;
-    let samples = SampleSet::new(work.samples);
-    let range = plan.tests.stored.range;
-    let tests_late = plan.timing != TestTiming::Early && !plan.tests.is_empty();
-    scratch
-        .queue
-        .configure(pipeline, samples, range, tests_late);
-    if gathers(plan) {
-        scratch
-            .solid_queue
-            .configure(pipeline, samples, range, tests_late);
-    }
-    scratch.in_order.list.set_samples(samples);
-    let scalars = pipeline.interface().varyings.len();
+    begin_queue(pass, work, job, scratch);
+    let scalars = plan.pipeline.interface().varyings.len();
     let mut planes = std::mem::take(&mut scratch.in_order.planes);
     planes.resize(VaryingPlanes::size(scalars), 0.0);
     let is_scalar = work.level.is_scalar();
-    let mut drawing = InOrder {
-        work,
-        samples,
-        source: work.varyings(),
-        conservative: pipeline.descriptor().primitive.conservative,
-        uses_hiz: plan.timing != TestTiming::Late,
-        blends_blocks: plan.path == TilePath::InOrderBlocks,
-        shares_packets: plan.path != TilePath::InOrderPackets,
-        needs_no_quads: pipeline.key().needs_no_quads,
-        primitives: entries.first().copied(),
-        // A run is of one kind of primitive, and notes of the queue serve triangles alone.
-        gathers: gathers(plan) && matches!(entries.first(), Some(BinEntry::Triangles { .. })),
-        stores_in_order: pipeline.key().stores_in_order,
-        listing: if is_scalar || const { N > 4 } {
-            Listing::None
-        } else {
-            Listing::of(plan)
-        },
-        passed: 0,
-        planes,
-        smooth: None,
-        job,
-        scratch,
-    };
+    let mut drawing = InOrder::new(work, entries.first().copied(), job, scratch);
+    drawing.planes = planes;
     let (mut batch, mut lines) = (Batch::default(), LineBatch::default());
+    // Samples of a pixel may lie on both sides of a rectangle's side.
+    let is_flat = drawing.source.modes.contains(&Interpolation::Flat);
+    let joins = const { N == 1 } && drawing.listing != Listing::None && !is_flat;
+    let mut rectangles = 0;
     let mut ahead = Ahead::new(work.chunk, drawing.source, entries);
     for entry in entries {
         match *entry {
@@ -158,6 +136,10 @@ pub(super) fn draw<const N: usize>(
                     }
                     ahead.step(work.level);
                     let triangle = &work.chunk.taken_apart(packet)[lane.get()];
+                    if joins && batch.join(triangle, &drawing.source) {
+                        rectangles += 1;
+                        continue;
+                    }
                     if !batch.has_room(triangle) {
                         drawing.batch(&mut batch);
                     }
@@ -175,11 +157,57 @@ pub(super) fn draw<const N: usize>(
     drawing.draw_lines(&mut lines);
     drawing.end_solid();
     drawing.blend_layers();
-    drawing.flush();
+    if plan.query.is_some() {
+        drawing.flush();
+    }
     let (passed, planes) = (drawing.passed, std::mem::take(&mut drawing.planes));
     scratch.in_order.planes = planes;
+    scratch.in_order.waiting = (!scratch.queue.is_empty()).then_some([work.number, work.sub_draw]);
+    scratch.statistics.rectangles_in_order += rectangles;
     if let (Some(queries), Some(query)) = (work.queries, plan.query) {
         queries.add(query, passed);
+    }
+}
+
+/// Makes the queue ready for a run: what waits in it stays if it is drawn alike.
+fn begin_queue<const N: usize>(
+    pass: &TilePass<'_>,
+    work: &TileWork<'_>,
+    job: &mut TileJob<'_>,
+    scratch: &mut TileScratch<N>,
+) {
+    let plan = work.plan;
+    let pipeline = plan.pipeline;
+    let samples = SampleSet::new(work.samples);
+    let range = plan.tests.stored.range;
+    let tests_late = plan.timing != TestTiming::Early && !plan.tests.is_empty();
+    scratch.in_order.list.set_samples(samples);
+    if let Some([_, sub_draw]) = scratch.in_order.waiting
+        && pass.plans[sub_draw as usize].queues_like(plan)
+    {
+        scratch.statistics.queues_kept += 1;
+        return;
+    }
+    finish(pass, job, scratch);
+    scratch
+        .queue
+        .configure(pipeline, samples, range, tests_late);
+    if gathers(plan) {
+        scratch
+            .solid_queue
+            .configure(pipeline, samples, range, tests_late);
+    }
+}
+
+/// Draws what waits in the queue.
+pub(super) fn finish<const N: usize>(
+    pass: &TilePass<'_>,
+    job: &mut TileJob<'_>,
+    scratch: &mut TileScratch<N>,
+) {
+    if let Some(of) = scratch.in_order.waiting.take() {
+        let work = TileWork::new(pass, of, job.tile);
+        InOrder::new(&work, None, job, scratch).flush();
     }
 }
 
@@ -220,6 +248,43 @@ struct InOrder<'a, 'j, 't, const N: usize> {
     smooth: Option<LineInterpolant<'a>>,
     job: &'j mut TileJob<'t>,
     scratch: &'j mut TileScratch<N>,
+}
+
+impl<'a, 'j, 't, const N: usize> InOrder<'a, 'j, 't, N> {
+    /// A run whose first primitive is given.
+    fn new(
+        work: &'a TileWork<'a>,
+        first: Option<BinEntry>,
+        job: &'j mut TileJob<'t>,
+        scratch: &'j mut TileScratch<N>,
+    ) -> Self {
+        let plan = work.plan;
+        let key = plan.pipeline.key();
+        Self {
+            work,
+            samples: SampleSet::new(work.samples),
+            source: work.varyings(),
+            conservative: plan.pipeline.descriptor().primitive.conservative,
+            uses_hiz: plan.timing != TestTiming::Late,
+            blends_blocks: plan.path == TilePath::InOrderBlocks,
+            shares_packets: plan.path != TilePath::InOrderPackets,
+            needs_no_quads: key.needs_no_quads,
+            primitives: first,
+            // A run is of one kind of primitive, and notes of the queue serve triangles alone.
+            gathers: gathers(plan) && matches!(first, Some(BinEntry::Triangles { .. })),
+            stores_in_order: key.stores_in_order,
+            listing: if work.level.is_scalar() || const { N > 4 } {
+                Listing::None
+            } else {
+                Listing::of(plan)
+            },
+            passed: 0,
+            planes: Vec::new(),
+            smooth: None,
+            job,
+            scratch,
+        }
+    }
 }
 
 impl<'a, const N: usize> InOrder<'a, '_, '_, N> {

@@ -6,7 +6,8 @@
 //! listed in the order of the triangles, and the list is tested and fills packets sixteen by
 //! sixteen. Order is kept: a packet holds no pixel twice, and ends before one that comes again. If
 //! the shader looks at the neighbours of a pixel, the list is one of quads. A triangle of up to
-//! sixteen pixels across and down, as half of a glyph, is four lanes: the quarters of its box.
+//! sixteen pixels across and down, as half of a glyph, is two lanes or four: the halves or quarters
+//! of its box. Two triangles that make a [rectangle](super::rectangle) are drawn as one box.
 //!
 //! ```text
 //!   16 triangles ─▶ list of pixels ─▶ early tests ─▶ packets of different pixels ─▶ queue
@@ -15,39 +16,50 @@
 
 use super::InOrder;
 use super::listed::ListedValues;
+use super::rectangle::is_rectangle;
 use crate::bounds::primitives::{LinePacket, Triangle, TrianglePacket};
 use crate::fragment::cross_line::CrossLines;
 use crate::fragment::cross_triangle::{CrossPlanes, Row, bits_of_row};
 use crate::fragment::interpolate::VaryingSource;
 use crate::plan::tile_plan::TilePlan;
+use crate::raster::parts::{Part, Parts};
 use crate::raster::pixel_list::PixelList;
-use crate::raster::small::{Boxes, Parts, SIDE, SmallBoxes};
+use crate::raster::small::{Boxes, SIDE, SmallBoxes};
 use crate::tile_path::TilePath;
 use estampe_simd::{LANES, Lanes, Packet, Select, SimdBase, dispatch, f32x16, u32x16};
 use estampe_types::state::ConservativeMode;
 
 /// Fewer triangles than this are drawn one by one.
-const LEAST: u32 = 3;
+const LEAST: usize = 3;
 
 /// The extent in 1/256 pixel from which on triangles are divided.
 const SMALL: i32 = SIDE * 256;
 
-/// The greater one of a triangle's width and height, in 1/256 pixel.
+/// A triangle's width and height, in 1/256 pixel.
 #[inline(always)]
-fn extent(triangle: &Triangle) -> i32 {
+fn extents(triangle: &Triangle) -> [i32; 2] {
     let ([x0, x1, x2], y) = (triangle.x, triangle.y);
-    let across = x0.max(x1).max(x2) - x0.min(x1).min(x2);
-    across.max(y[2] - y[0])
+    [x0.max(x1).max(x2) - x0.min(x1).min(x2), y[2] - y[0]]
+}
+
+/// A lane of a batch.
+#[derive(Debug, Clone, Copy)]
+struct Member<'a> {
+    triangle: &'a Triangle,
+    /// The triangle that makes a rectangle with it.
+    second: Option<&'a Triangle>,
+    part: Part,
 }
 
 /// Triangles that are drawn together, in order, and what they are divided into.
 #[derive(Debug, Default)]
 pub(super) struct Batch<'a> {
-    /// By lane: a triangle, and which quarter of it, if it is divided.
-    lanes: [Option<(&'a Triangle, Option<usize>)>; LANES],
+    lanes: [Option<Member<'a>>; LANES],
     len: usize,
-    /// How many lanes are small triangles or quarters of larger ones.
-    small: u32,
+    /// How many lanes are small triangles or parts of larger ones.
+    small: usize,
+    /// The lanes of the last triangle, if it is small and no rectangle yet.
+    last: usize,
 }
 
 impl<'a> Batch<'a> {
@@ -58,42 +70,81 @@ impl<'a> Batch<'a> {
         batch
     }
 
-    /// The lanes that a triangle takes.
+    /// Returns true if a triangle may be listed, and whether its box is then divided into columns
+    /// and into rows of parts.
     #[inline(always)]
-    fn lanes_of(triangle: &Triangle) -> usize {
+    fn division_of(triangle: &Triangle) -> (bool, [bool; 2]) {
         // A box may have a column or a row more than the extent says: such a triangle is drawn
         // alone, if its box is not small.
-        if (SMALL..2 * SMALL).contains(&extent(triangle)) {
-            Parts::QUARTERS.len()
-        } else {
-            1
-        }
+        let [across, down] = extents(triangle);
+        let is_small = across.max(down) < 2 * SMALL;
+        let is_divided = [is_small && across >= SMALL, is_small && down >= SMALL];
+        (is_small, is_divided)
     }
 
     /// Returns true if there are lanes for a triangle.
     #[inline(always)]
     pub(super) fn has_room(&self, triangle: &Triangle) -> bool {
-        self.len + Self::lanes_of(triangle) <= LANES
+        let (_, [columns, rows]) = Self::division_of(triangle);
+        self.len + (1 << usize::from(columns) << usize::from(rows)) <= LANES
     }
 
     /// Adds a triangle, for which there must be room.
     #[inline(always)]
     pub(super) fn add(&mut self, triangle: &'a Triangle) {
-        let count = Self::lanes_of(triangle);
-        for part in 0..count {
-            let part = (count > 1).then_some(part);
-            self.lanes[self.len % LANES] = Some((triangle, part));
-            self.len += 1;
+        let (is_small, is_divided) = Self::division_of(triangle);
+        let before = self.len;
+        for below in 0..=i32::from(is_divided[1]) {
+            for right in 0..=i32::from(is_divided[0]) {
+                let part = Part {
+                    from: [right * SIDE, below * SIDE],
+                    is_divided,
+                    is_rectangle: false,
+                };
+                self.lanes[self.len % LANES] = Some(Member {
+                    triangle,
+                    second: None,
+                    part,
+                });
+                self.len += 1;
+            }
         }
-        let is_small = extent(triangle) < 2 * SMALL;
-        self.small += u32::from(is_small) * if count > 1 { 4 } else { 1 };
+        self.last = if is_small { self.len - before } else { 0 };
+        self.small += self.last;
     }
 
-    /// The lanes: number, triangle, quarter.
+    /// Draws a triangle together with the last one, if both make a rectangle; otherwise false.
     #[inline(always)]
-    fn iter(&self) -> impl Iterator<Item = (usize, &'a Triangle, Option<usize>)> {
+    pub(super) fn join(&mut self, triangle: &'a Triangle, source: &VaryingSource<'_>) -> bool {
+        let before = self.len - self.last;
+        let Some(members) = self.lanes.get_mut(before..self.len) else {
+            return false;
+        };
+        let Some(Some(first)) = members.first() else {
+            return false;
+        };
+        if !is_rectangle(first.triangle, triangle, source) {
+            return false;
+        }
+        for member in members.iter_mut().flatten() {
+            member.second = Some(triangle);
+            member.part.is_rectangle = true;
+        }
+        self.last = 0;
+        true
+    }
+
+    /// Forgets the triangles.
+    #[inline(always)]
+    fn clear(&mut self) {
+        (self.len, self.small, self.last) = (0, 0, 0);
+    }
+
+    /// The lanes and their numbers.
+    #[inline(always)]
+    fn iter(&self) -> impl Iterator<Item = (usize, &Member<'a>)> {
         let lanes = self.lanes.iter().take(self.len).enumerate();
-        lanes.filter_map(|(lane, of)| of.map(|(triangle, part)| (lane, triangle, part)))
+        lanes.filter_map(|(lane, of)| of.as_ref().map(|member| (lane, member)))
     }
 }
 
@@ -208,7 +259,7 @@ impl<const N: usize> InOrder<'_, '_, '_, N> {
     #[inline(never)]
     pub(super) fn batch(&mut self, batch: &mut Batch<'_>) {
         dispatch_samples!(N, self.work.level, s => self.batch_lanes(s, batch));
-        (batch.len, batch.small) = (0, 0);
+        batch.clear();
     }
 
     #[inline(always)]
@@ -218,18 +269,21 @@ impl<const N: usize> InOrder<'_, '_, '_, N> {
             small = self.cover_batch(batch);
         }
         let mut next = 0;
-        for (lane, triangle, part) in batch.iter() {
-            // A triangle whose quarters are not listed is drawn with the first of them.
-            if lane < next || part.is_some_and(|part| part > 0) {
+        for (lane, member) in batch.iter() {
+            // A triangle whose parts are not listed is drawn with the first of them.
+            if lane < next || member.part.from != [0; 2] {
                 continue;
             }
-            let run = (small >> lane).trailing_ones();
+            let run = (small >> lane).trailing_ones() as usize;
             if run >= LEAST {
                 let lanes = ((1u32 << run) - 1) << lane;
                 self.list_pixels::<OfTriangles>((lanes & 0xFFFF) as u16);
-                next = lane + run as usize;
+                next = lane + run;
             } else {
-                self.triangle(s, triangle);
+                self.triangle(s, member.triangle);
+                if let Some(second) = member.second {
+                    self.triangle(s, second);
+                }
                 next = lane + 1;
             }
         }
@@ -248,10 +302,9 @@ impl<const N: usize> InOrder<'_, '_, '_, N> {
     #[inline(always)]
     fn cover_lanes<S: Lanes>(&mut self, s: S, batch: &Batch<'_>) -> u16 {
         let scratch = &mut *self.scratch.in_order.small;
-        for (lane, triangle, part) in batch.iter() {
-            scratch.packet.set(lane, triangle);
-            let part = part.and_then(|part| Parts::QUARTERS.get(part));
-            scratch.parts.set(lane, part.copied());
+        for (lane, member) in batch.iter() {
+            scratch.packet.set(lane, member.triangle);
+            scratch.parts.set(lane, member.part);
         }
         let lanes = u16::MAX >> (LANES - batch.len.clamp(1, LANES));
         let tile = (self.work.shape, &self.work.rect);
@@ -263,7 +316,7 @@ impl<const N: usize> InOrder<'_, '_, '_, N> {
         };
         let of_lanes = (packet, lanes);
         let small = small.cover_boxes(s, boxes, &scratch.parts, of_lanes, (tile, self.samples));
-        if small.count_ones() < LEAST {
+        if (small.count_ones() as usize) < LEAST {
             return 0;
         }
         scratch.planes.set(s, packet, small, &self.source);
