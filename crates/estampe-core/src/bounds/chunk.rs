@@ -10,7 +10,7 @@
 //! submission order, and so do the entries of a tile.
 
 use super::bins::{BinEntry, Bins};
-use super::primitives::{LinePrimitive, PointPrimitive, Triangle, TrianglePacket};
+use super::primitives::{LinePrimitive, PackedTriangle, PointPrimitive, TrianglePacket};
 use crate::statistics::Statistics;
 use estampe_simd::LANES;
 
@@ -48,23 +48,67 @@ struct ChunkPart {
 
 /// Packets of triangles whose memory outlives the chunk's contents: a packet is 1.3 KB, and to fill
 /// it with zeros before it is written would cost as much as writing it.
-#[derive(Debug, Default)]
+///
+/// Of packets that are taken apart nothing is kept but their numbers: they are made in one place,
+/// so that they stay in the cache. Such a number's memory, if there is any, holds anything.
+#[derive(Debug)]
 pub(crate) struct TrianglePackets {
     memory: Vec<TrianglePacket>,
     len: usize,
     /// The number of packets if no triangle is culled.
     most: usize,
+    /// The last packet that was not to be kept.
+    passing: Box<TrianglePacket>,
+    /// True if that is the last packet.
+    is_last_passing: bool,
+}
+
+impl Default for TrianglePackets {
+    fn default() -> Self {
+        Self {
+            memory: Vec::new(),
+            len: 0,
+            most: 0,
+            passing: Box::new(TrianglePacket::EMPTY),
+            is_last_passing: false,
+        }
+    }
 }
 
 impl TrianglePackets {
     /// Adds a packet whose contents are stale: the caller writes every field.
     #[inline(always)]
     pub(crate) fn push_stale(&mut self) -> &mut TrianglePacket {
-        if self.len == self.memory.len() {
+        if self.len >= self.memory.len() {
             self.add_memory();
         }
+        self.is_last_passing = false;
         self.len += 1;
         &mut self.memory[self.len - 1]
+    }
+
+    /// Adds a packet as [`TrianglePackets::push_stale`], which is kept until the next one is added.
+    #[inline(always)]
+    pub(crate) fn push_passing(&mut self) -> &mut TrianglePacket {
+        self.is_last_passing = true;
+        self.len += 1;
+        &mut self.passing
+    }
+
+    /// The number of packets.
+    #[inline(always)]
+    pub(crate) fn len(&self) -> usize {
+        self.len
+    }
+
+    /// The last packet, and its number.
+    #[inline(always)]
+    pub(crate) fn last(&self) -> Option<(&TrianglePacket, usize)> {
+        let number = self.len.checked_sub(1)?;
+        if self.is_last_passing {
+            return Some((&self.passing, number));
+        }
+        self.memory.get(number).map(|packet| (packet, number))
     }
 
     /// Announces at most so many packets: memory is then taken at once, with the first of them.
@@ -78,7 +122,7 @@ impl TrianglePackets {
     fn add_memory(&mut self) {
         let missing = self.most.saturating_sub(self.memory.len());
         self.memory.reserve_exact(missing);
-        self.memory.push(TrianglePacket::EMPTY);
+        self.memory.resize(self.len + 1, TrianglePacket::EMPTY);
     }
 
     fn clear(&mut self) {
@@ -91,7 +135,7 @@ impl std::ops::Deref for TrianglePackets {
 
     #[inline(always)]
     fn deref(&self) -> &[TrianglePacket] {
-        &self.memory[..self.len]
+        &self.memory[..self.len.min(self.memory.len())]
     }
 }
 
@@ -103,7 +147,7 @@ pub(crate) struct Chunk {
     pub(crate) triangles: TrianglePackets,
     /// The triangles of the packets up to the last one whose triangles are drawn one by one, in
     /// order: sixteen a packet, of other packets anything.
-    one_by_one: Vec<Triangle>,
+    one_by_one: Vec<PackedTriangle>,
     pub(crate) lines: Vec<LinePrimitive>,
     pub(crate) points: Vec<PointPrimitive>,
     /// Varyings of the vertices that clipping made, one after the other. The numbers of a run's
@@ -129,18 +173,18 @@ impl Chunk {
 
     /// Notes that the triangles of the last packet are drawn one by one.
     pub(crate) fn take_apart_last(&mut self) {
-        let Some((packet, others)) = self.triangles.split_last() else {
+        let Some((packet, number)) = self.triangles.last() else {
             return;
         };
-        let nothing = TrianglePacket::EMPTY.triangle(0);
-        self.one_by_one.resize(others.len() * LANES, nothing);
-        let lanes = (0..LANES).map(|lane| packet.triangle(lane));
+        let nothing = PackedTriangle::of_lane(&TrianglePacket::EMPTY, 0);
+        self.one_by_one.resize(number * LANES, nothing);
+        let lanes = (0..LANES).map(|lane| PackedTriangle::of_lane(packet, lane));
         self.one_by_one.extend(lanes);
     }
 
     /// The triangles of a packet that was [taken apart](Chunk::take_apart_last).
     #[inline(always)]
-    pub(crate) fn taken_apart(&self, packet: u32) -> &[Triangle; LANES] {
+    pub(crate) fn taken_apart(&self, packet: u32) -> &[PackedTriangle; LANES] {
         let triangles = self.one_by_one.as_chunks().0;
         &triangles[packet as usize]
     }

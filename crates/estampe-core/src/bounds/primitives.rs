@@ -4,7 +4,7 @@
 //! one by one.
 
 use super::plane::{Plane, PlanePacket};
-use estampe_simd::LANES;
+use estampe_simd::{Bytes, LANES, Lanes, SimdBase, SimdCvtFloat, f32x16, i32x16, u32x16};
 
 /// A vertex of a sub-draw: an index into its shaded vertices or, with [`VertexRef::CLIPPED`] set,
 /// into the vertices of the chunk that clipping made.
@@ -104,35 +104,149 @@ impl TrianglePacket {
         self.front = copy(self.front, from.front);
     }
 
-    /// Sets a lane.
+    /// Sets a lane to a triangle. What it does not hold is set by
+    /// [`TrianglePacket::complete_small`].
     #[inline(always)]
-    pub(crate) fn set(&mut self, lane: usize, triangle: &Triangle) {
+    pub(crate) fn set(&mut self, lane: usize, triangle: &PackedTriangle) {
         for corner in 0..3 {
             self.x[corner][lane] = triangle.x[corner];
             self.y[corner][lane] = triangle.y[corner];
             self.vertex[corner][lane] = triangle.vertex[corner];
             self.iw_at[corner][lane] = triangle.iw_at[corner];
         }
-        self.provoking[lane] = triangle.provoking;
+        self.provoking[lane] = triangle.provoking();
         self.z.set(lane, triangle.z);
-        self.iw.set(lane, triangle.iw);
-        self.r[lane] = triangle.r;
-        let bit = 1 << lane;
-        for (mask, is_in) in [
-            (&mut self.clockwise, triangle.clockwise),
-            (&mut self.front, triangle.front),
-            (&mut self.equal_w, triangle.equal_w),
-        ] {
-            *mask = *mask & !bit | u16::from(is_in) << lane;
+        self.front = self.front & !(1 << lane) | u16::from(triangle.is_front()) << lane;
+    }
+
+    /// Computes what a packed triangle does not hold, of those that are smaller than 128 pixels.
+    #[inline(always)]
+    pub(crate) fn complete_small<S: Lanes>(&mut self, s: S) {
+        let load = |lanes: &[i32; LANES]| i32x16::load_array_ref(s, lanes);
+        let [x0, y0] = [load(&self.x[0]), load(&self.y[0])];
+        let (x1, x2) = (load(&self.x[1]) - x0, load(&self.x[2]) - x0);
+        let (y1, y2) = (load(&self.y[1]) - y0, load(&self.y[2]) - y0);
+        let area = f32x16::float_from(x1 * y2 - x2 * y1);
+        let splat = |value| <f32x16<S> as SimdBase<S>>::splat(s, value);
+        let r = splat(65_536.0) / area;
+        r.store_array(&mut self.r);
+        self.clockwise = s.bits_of_mask(area.simd_gt(splat(0.0)));
+        let bits = |corner: usize| -> u32x16<S> {
+            f32x16::load_array_ref(s, &self.iw_at[corner]).bitcast()
+        };
+        let first = bits(0);
+        let are_equal = first.simd_eq(bits(1)) & first.simd_eq(bits(2));
+        self.equal_w = s.bits_of_mask(are_equal);
+        let scale = splat(1.0 / 256.0);
+        let (dx1, dx2) = (
+            f32x16::float_from(x1) * scale,
+            f32x16::float_from(x2) * scale,
+        );
+        let (dy1, dy2) = (
+            f32x16::float_from(y1) * scale,
+            f32x16::float_from(y2) * scale,
+        );
+        let iw = |corner: usize| f32x16::load_array_ref(s, &self.iw_at[corner]);
+        let (e1, e2) = (iw(1) - iw(0), iw(2) - iw(0));
+        iw(0).store_array(&mut self.iw.origin);
+        ((e1 * dy2 - e2 * dy1) * r).store_array(&mut self.iw.dx);
+        ((e2 * dx1 - e1 * dx2) * r).store_array(&mut self.iw.dy);
+    }
+}
+
+/// A triangle that is drawn by itself, in order: a cache line.
+///
+/// A lane's values are in 21 cache lines of its packet. What is computed again in a few operations,
+/// with the same bits, is not here.
+#[derive(Debug, Clone, Copy)]
+#[repr(C, align(64))]
+pub(crate) struct PackedTriangle {
+    pub(crate) x: [i32; 3],
+    pub(crate) y: [i32; 3],
+    pub(crate) vertex: [VertexRef; 3],
+    /// The provoking vertex, which clipping never made, with [`PackedTriangle::FRONT`].
+    provoking: u32,
+    pub(crate) iw_at: [f32; 3],
+    pub(crate) z: Plane,
+}
+
+const _: () = assert!(size_of::<PackedTriangle>() == 64);
+
+impl PackedTriangle {
+    /// The bit that tells triangles that face the viewer.
+    const FRONT: u32 = 1 << 31;
+
+    /// The triangle of a packet's lane.
+    #[inline(always)]
+    pub(crate) fn of_lane(packet: &TrianglePacket, lane: usize) -> Self {
+        let TrianglePacket {
+            x,
+            y,
+            vertex,
+            iw_at,
+            ..
+        } = packet;
+        let front = packet.front >> lane & 1 == 1;
+        Self {
+            x: [x[0][lane], x[1][lane], x[2][lane]],
+            y: [y[0][lane], y[1][lane], y[2][lane]],
+            vertex: [vertex[0][lane], vertex[1][lane], vertex[2][lane]],
+            provoking: packet.provoking[lane].0 & !Self::FRONT
+                | if front { Self::FRONT } else { 0 },
+            iw_at: [iw_at[0][lane], iw_at[1][lane], iw_at[2][lane]],
+            z: packet.z.lane(lane),
+        }
+    }
+
+    #[inline(always)]
+    pub(crate) fn provoking(&self) -> VertexRef {
+        VertexRef(self.provoking & !Self::FRONT)
+    }
+
+    #[inline(always)]
+    pub(crate) fn is_front(&self) -> bool {
+        self.provoking & Self::FRONT != 0
+    }
+
+    /// True if the three 1/w are equal in bits.
+    #[inline(always)]
+    pub(crate) fn has_equal_w(&self) -> bool {
+        let [a, b, c] = self.iw_at.map(f32::to_bits);
+        a == b && a == c
+    }
+
+    /// The triangle with all that was set up.
+    #[inline(always)]
+    pub(crate) fn unpack(&self) -> Triangle {
+        let ([x0, x1, x2], [y0, y1, y2]) = (self.x, self.y);
+        let (x1, x2, y1, y2) = (x1 - x0, x2 - x0, y1 - y0, y2 - y0);
+        let area = i64::from(x1) * i64::from(y2) - i64::from(x2) * i64::from(y1);
+        let r = 65_536.0 / area as f32;
+        let pixels = |subpixels: i32| subpixels as f32 * (1.0 / 256.0);
+        let [w0, w1, w2] = self.iw_at;
+        let (e1, e2) = (w1 - w0, w2 - w0);
+        Triangle {
+            x: self.x,
+            y: self.y,
+            vertex: self.vertex,
+            provoking: self.provoking(),
+            iw_at: self.iw_at,
+            z: self.z,
+            iw: Plane {
+                origin: w0,
+                dx: (e1 * pixels(y2) - e2 * pixels(y1)) * r,
+                dy: (e2 * pixels(x1) - e1 * pixels(x2)) * r,
+            },
+            r,
+            clockwise: area > 0,
+            front: self.is_front(),
+            equal_w: self.has_equal_w(),
         }
     }
 }
 
 /// One triangle, set up: a lane of a [`TrianglePacket`].
-///
-/// A lane's values are in 21 cache lines of its packet, those of a `Triangle` in two.
 #[derive(Debug, Clone, Copy)]
-#[repr(align(32))]
 pub(crate) struct Triangle {
     pub(crate) x: [i32; 3],
     pub(crate) y: [i32; 3],
@@ -146,8 +260,6 @@ pub(crate) struct Triangle {
     pub(crate) front: bool,
     pub(crate) equal_w: bool,
 }
-
-const _: () = assert!(size_of::<Triangle>() == 96);
 
 /// A line's or point's end: where it is in the window, and where its varyings are.
 #[derive(Debug, Clone, Copy, Default)]

@@ -60,10 +60,10 @@ pub(crate) fn bin_packet<S: Lanes>(
 ) {
     outline!(s, {
         let ranges = TileRanges::new(s, plan, positions);
-        let Some((last, others)) = chunk.triangles.split_last() else {
+        let Some((last, packet)) = chunk.triangles.last() else {
             unreachable!("a packet was just set up");
         };
-        let packet = number(others.len());
+        let packet = number(packet);
         let bins = &mut chunk.bins;
         bins.end_packet();
         let used = u16::MAX >> (LANES - usize::from(last.len).min(LANES));

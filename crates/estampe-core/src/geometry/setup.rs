@@ -194,7 +194,13 @@ impl<'a> Setup<'a> {
         let [x1, y1, z1, w1] = self.read(s, v1, first);
         let [x2, y2, z2, w2] = self.read(s, v2, first);
 
-        let packet = self.chunk.triangles.push_stale();
+        // The scalar level draws everything one by one, from packets.
+        let takes_apart = const { !S::IS_SCALAR } && self.plan.draws_one_by_one;
+        let packets = &mut self.chunk.triangles;
+        let packet = match takes_apart {
+            true => packets.push_passing(),
+            false => packets.push_stale(),
+        };
         let live = u16::MAX >> (LANES - len);
         for (corner, from) in [v0, v1, v2].into_iter().enumerate() {
             packet.vertex[corner] = from.map(VertexRef);
@@ -237,8 +243,7 @@ impl<'a> Setup<'a> {
         w2.store_array(&mut packet.iw_at[2]);
         edges.plane(s, w0, w1, w2, &mut packet.iw);
 
-        // The scalar level draws everything one by one, from packets.
-        if const { !S::IS_SCALAR } && self.plan.draws_one_by_one {
+        if takes_apart {
             self.chunk.take_apart_last();
         }
         bin_packet(s, self.plan, [[x0, x1, x2], [y0, y1, y2]], self.chunk);

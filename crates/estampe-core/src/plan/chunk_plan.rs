@@ -7,8 +7,9 @@ use super::sub_draw::SubDraw;
 use crate::bounds::chunk::number;
 
 /// Primitives of a chunk at most, but for stippled strips, which are not cut; then the limit where
-/// there are too few for the threads.
-const CHUNK_PRIMITIVES: [usize; 2] = [4096, 512];
+/// there are too few for the threads. Where a mesh lies all over the picture, each tile has a run
+/// of each chunk, which costs as much as some triangles: with 4096 primitives runs had sixteen.
+const CHUNK_PRIMITIVES: [usize; 2] = [16_384, 512];
 
 /// Sub-draws of a chunk at most, then the limit where there are too few for the threads: each costs
 /// about as much as the geometry of 64 triangles.

@@ -140,6 +140,7 @@ fn draw_into<const N: usize>(
     scratch: &mut TileScratch<N>,
 ) {
     begin(pass, job, scratch);
+    let mut ahead = in_order::Ahead::new(pass, job.tile);
     for &number in pass.chunk_index.of_tile(job.tile) {
         for (sub_draw, entries) in pass.chunks[number as usize].runs_of_tile(job.tile) {
             let work = TileWork::new(pass, [number, sub_draw], job.tile);
@@ -150,7 +151,7 @@ fn draw_into<const N: usize>(
             } else {
                 visibility::resolve(pass, job, scratch);
                 clear_colors(pass, job, scratch);
-                in_order::draw(pass, (&work, entries), job, scratch);
+                in_order::draw(pass, (&work, entries), (job, &mut ahead), scratch);
             }
         }
     }
@@ -284,11 +285,17 @@ impl<'a> TileWork<'a> {
     /// The varyings of the sub-draw's vertices, and of the vertices that the chunk made by
     /// clipping.
     fn varyings(&self) -> VaryingSource<'a> {
-        VaryingSource {
-            shaded: self.plan.varyings,
-            clipped: &self.chunk.clipped_varyings,
-            modes: &self.plan.pipeline.interface().varyings,
-            gradients: &self.plan.pipeline.interface().gradients,
-        }
+        varyings_of(self.chunk, self.plan)
+    }
+}
+
+/// The varyings of a sub-draw's vertices, and of the vertices that a chunk made by clipping.
+fn varyings_of<'a>(chunk: &'a Chunk, plan: &TilePlan<'a>) -> VaryingSource<'a> {
+    let interface = plan.pipeline.interface();
+    VaryingSource {
+        shaded: plan.varyings,
+        clipped: &chunk.clipped_varyings,
+        modes: &interface.varyings,
+        gradients: &interface.gradients,
     }
 }

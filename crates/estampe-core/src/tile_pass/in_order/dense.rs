@@ -12,7 +12,7 @@ use crate::fragment::queue::{PixelPacket, PrimitivePacket};
 use crate::tile_pass::fragments::{Fragments, lanes_between, masks_of};
 use estampe_simd::{LANES, Lanes, SimdBase, u32x16};
 
-impl<const N: usize> InOrder<'_, '_, '_, N> {
+impl<const N: usize> InOrder<'_, '_, '_, '_, N> {
     /// Queues a primitive's list.
     #[inline(always)]
     pub(super) fn queue_dense<S: Lanes>(

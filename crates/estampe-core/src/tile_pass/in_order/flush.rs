@@ -4,7 +4,7 @@ use super::InOrder;
 use crate::raster::packet_origin;
 use crate::tile_pass::write_colors;
 
-impl<const N: usize> InOrder<'_, '_, '_, N> {
+impl<const N: usize> InOrder<'_, '_, '_, '_, N> {
     /// Shades the queued packets and writes them, in order.
     pub(super) fn flush(&mut self) {
         if self.scratch.queue.is_empty() {

@@ -8,7 +8,7 @@ use estampe_simd::{Lanes, dispatch};
 /// Lines of the next tile that are prefetched for each block.
 const AHEAD: usize = 8;
 
-impl<const N: usize> InOrder<'_, '_, '_, N> {
+impl<const N: usize> InOrder<'_, '_, '_, '_, N> {
     /// Adds a triangle to the layers that will be blended together: the packets of the list, which
     /// are tested, and the blocks that it covers whole.
     pub(super) fn add_layer(&mut self, triangle: &TriangleInterpolant<'_>, coverage: WholeBlocks) {

@@ -62,7 +62,7 @@ pub(super) trait ListedValues {
     );
 }
 
-impl<const N: usize> InOrder<'_, '_, '_, N> {
+impl<const N: usize> InOrder<'_, '_, '_, '_, N> {
     /// Draws small primitives of the batch that follow each other.
     #[inline(never)]
     pub(super) fn list_pixels<V: ListedValues>(&mut self, lanes: u16) {

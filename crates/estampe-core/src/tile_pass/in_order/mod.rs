@@ -40,7 +40,7 @@ mod tests;
 use super::fragments::Fragments;
 use super::{HIZ_PACKETS, TileJob, TilePass, TileScratch, TileWork};
 use crate::bounds::bins::BinEntry;
-use crate::bounds::primitives::{LinePrimitive, PointPrimitive, Triangle};
+use crate::bounds::primitives::{LinePrimitive, PackedTriangle, PointPrimitive, Triangle};
 use crate::fragment::interpolate::{
     DepthPlane, LineInterpolant, LineOrPoint, PointInterpolant, TriangleInterpolant, VaryingPlanes,
     VaryingSource, set_planes,
@@ -52,7 +52,7 @@ use crate::raster::conservative::ConservativeTriangle;
 use crate::raster::triangle::TileTriangle;
 use crate::raster::{CoverageList, SampleSet, line, point};
 use crate::tile_path::TilePath;
-use ahead::Ahead;
+pub(super) use ahead::Ahead;
 use estampe_simd::{Lane, Lanes};
 use estampe_types::Interpolation;
 use estampe_types::state::ConservativeMode;
@@ -107,7 +107,7 @@ impl<const N: usize> Default for InOrderScratch<N> {
 pub(super) fn draw<const N: usize>(
     pass: &TilePass<'_>,
     (work, entries): (&TileWork<'_>, &[BinEntry]),
-    job: &mut TileJob<'_>,
+    (job, ahead): (&mut TileJob<'_>, &mut Ahead<'_>),
     scratch: &mut TileScratch<N>,
 ) {
     let plan = work.plan;
@@ -117,24 +117,24 @@ pub(super) fn draw<const N: usize>(
     planes.resize(VaryingPlanes::size(scalars), 0.0);
     let is_scalar = work.level.is_scalar();
     let mut drawing = InOrder::new(work, entries.first().copied(), job, scratch);
+    drawing.ahead = Some(ahead);
     drawing.planes = planes;
     let (mut batch, mut lines) = (Batch::default(), LineBatch::default());
     // Samples of a pixel may lie on both sides of a rectangle's side.
     let is_flat = drawing.source.modes.contains(&Interpolation::Flat);
     let joins = const { N == 1 } && drawing.listing != Listing::None && !is_flat;
     let mut rectangles = 0;
-    let mut ahead = Ahead::new(work.chunk, drawing.source, entries);
     for entry in entries {
         match *entry {
             BinEntry::Triangles { packet, lanes } => {
                 for lane in Lane::all_of(lanes) {
                     if is_scalar {
                         let packet = &work.chunk.triangles[packet as usize];
-                        let triangle = packet.triangle(lane.get());
+                        let triangle = PackedTriangle::of_lane(packet, lane.get());
                         drawing.batch(&mut Batch::of(&triangle));
                         continue;
                     }
-                    ahead.step(work.level);
+                    drawing.step();
                     let triangle = &work.chunk.taken_apart(packet)[lane.get()];
                     if joins && batch.join(triangle, &drawing.source) {
                         rectangles += 1;
@@ -147,7 +147,7 @@ pub(super) fn draw<const N: usize>(
                 }
             }
             BinEntry::Line(number) => {
-                ahead.step(work.level);
+                drawing.step();
                 drawing.add_line(&mut lines, &work.chunk.lines[number as usize]);
             }
             BinEntry::Point(number) => drawing.point(&work.chunk.points[number as usize]),
@@ -219,7 +219,7 @@ fn gathers(plan: &TilePlan<'_>) -> bool {
 }
 
 /// A run being drawn into a tile.
-struct InOrder<'a, 'j, 't, const N: usize> {
+struct InOrder<'a, 'j, 't, 'p, const N: usize> {
     work: &'a TileWork<'a>,
     samples: SampleSet<N>,
     source: VaryingSource<'a>,
@@ -240,6 +240,8 @@ struct InOrder<'a, 'j, 't, const N: usize> {
     stores_in_order: bool,
     /// What is listed of small triangles.
     listing: Listing,
+    /// What is prefetched.
+    ahead: Option<&'j mut Ahead<'p>>,
     /// Samples that passed all tests, where a query counts them.
     passed: u64,
     /// Planes of the triangle at hand.
@@ -250,7 +252,7 @@ struct InOrder<'a, 'j, 't, const N: usize> {
     scratch: &'j mut TileScratch<N>,
 }
 
-impl<'a, 'j, 't, const N: usize> InOrder<'a, 'j, 't, N> {
+impl<'a, 'j, 't, const N: usize> InOrder<'a, 'j, 't, '_, N> {
     /// A run whose first primitive is given.
     fn new(
         work: &'a TileWork<'a>,
@@ -278,6 +280,7 @@ impl<'a, 'j, 't, const N: usize> InOrder<'a, 'j, 't, N> {
             } else {
                 Listing::of(plan)
             },
+            ahead: None,
             passed: 0,
             planes: Vec::new(),
             smooth: None,
@@ -287,7 +290,7 @@ impl<'a, 'j, 't, const N: usize> InOrder<'a, 'j, 't, N> {
     }
 }
 
-impl<'a, const N: usize> InOrder<'a, '_, '_, N> {
+impl<'a, const N: usize> InOrder<'a, '_, '_, '_, N> {
     /// Draws a triangle alone.
     #[inline(always)]
     fn triangle<S: Lanes>(&mut self, s: S, triangle: &Triangle) {
@@ -390,6 +393,14 @@ impl<'a, const N: usize> InOrder<'a, '_, '_, N> {
         })
     }
 
+    /// Notes that one more primitive is drawn next.
+    #[inline(always)]
+    fn step(&mut self) {
+        if let Some(ahead) = &mut self.ahead {
+            ahead.step(self.work.level);
+        }
+    }
+
     /// Draws a line alone. Such lines and points enter the SIMD level one by one: they are few, and
     /// their code is kept out of the loop over triangles.
     fn line(&mut self, line: &'a LinePrimitive) {
@@ -428,7 +439,7 @@ impl<'a, const N: usize> InOrder<'a, '_, '_, N> {
     }
 }
 
-impl<const N: usize> InOrder<'_, '_, '_, N> {
+impl<const N: usize> InOrder<'_, '_, '_, '_, N> {
     fn enter_covered(&mut self, interpolant: &LineOrPoint<'_>, front: bool) {
         dispatch_samples!(N, self.work.level, s => {
             self.cover_rectangle(s, interpolant);

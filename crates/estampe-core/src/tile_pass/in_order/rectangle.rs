@@ -18,7 +18,7 @@
 //! vertices, where sums are rounded otherwise.
 
 use crate::bounds::plane::Plane;
-use crate::bounds::primitives::Triangle;
+use crate::bounds::primitives::PackedTriangle;
 use crate::fragment::interpolate::VaryingSource;
 
 /// Varyings of a rectangle are smaller, so that no product overflows: W and H are below 2¹⁶.
@@ -27,17 +27,18 @@ const MOST: f32 = 1e30;
 /// Returns true if the triangles, none of whose varyings are flat, may be drawn as one box.
 #[inline(always)]
 pub(super) fn is_rectangle(
-    first: &Triangle,
-    second: &Triangle,
+    first: &PackedTriangle,
+    second: &PackedTriangle,
     source: &VaryingSource<'_>,
 ) -> bool {
-    let are_level = |upper: &Triangle, lower: &Triangle| {
+    let are_level = |upper: &PackedTriangle, lower: &PackedTriangle| {
         let ([ax, bx, dx], [ay, by, dy]) = (upper.x, upper.y);
         let ([_, cx, _], [_, cy, _]) = (lower.x, lower.y);
         [ay, bx] == [by, dx] && [cx, cy] == [ax, dy]
     };
-    let ends = |triangle: &Triangle| [triangle.x[0], triangle.y[0], triangle.x[2], triangle.y[2]];
-    if ends(first) != ends(second) || !first.equal_w || !second.equal_w {
+    let ends =
+        |triangle: &PackedTriangle| [triangle.x[0], triangle.y[0], triangle.x[2], triangle.y[2]];
+    if ends(first) != ends(second) || !first.has_equal_w() || !second.has_equal_w() {
         return false;
     }
     let (upper, lower) = match (are_level(first, second), are_level(second, first)) {
@@ -45,7 +46,7 @@ pub(super) fn is_rectangle(
         (_, true) => (second, first),
         _ => return false,
     };
-    upper.front == lower.front
+    upper.is_front() == lower.is_front()
         && upper.iw_at[0].to_bits() == lower.iw_at[0].to_bits()
         && are_same(&upper.z, &lower.z)
         && have_same_planes(upper, lower, source)
@@ -59,8 +60,12 @@ fn are_same(a: &Plane, b: &Plane) -> bool {
 }
 
 #[inline(always)]
-fn have_same_planes(upper: &Triangle, lower: &Triangle, source: &VaryingSource<'_>) -> bool {
-    let of = |triangle: &Triangle, corner: usize| source.of(triangle.vertex[corner]);
+fn have_same_planes(
+    upper: &PackedTriangle,
+    lower: &PackedTriangle,
+    source: &VaryingSource<'_>,
+) -> bool {
+    let of = |triangle: &PackedTriangle, corner: usize| source.of(triangle.vertex[corner]);
     let begins = of(upper, 0).iter().zip(of(lower, 0));
     let ends = of(upper, 2).iter().zip(of(lower, 2));
     let sides = of(upper, 1).iter().zip(of(lower, 1));

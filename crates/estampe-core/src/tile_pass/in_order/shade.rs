@@ -42,7 +42,7 @@ impl PendingQuads {
     }
 }
 
-impl<const N: usize> InOrder<'_, '_, '_, N> {
+impl<const N: usize> InOrder<'_, '_, '_, '_, N> {
     /// A line's or point's list: test, then queue.
     #[inline(always)]
     pub(super) fn covered<S: Lanes>(&mut self, s: S, interpolant: &LineOrPoint<'_>, front: bool) {

@@ -17,7 +17,7 @@
 use super::InOrder;
 use super::listed::ListedValues;
 use super::rectangle::is_rectangle;
-use crate::bounds::primitives::{LinePacket, Triangle, TrianglePacket};
+use crate::bounds::primitives::{LinePacket, PackedTriangle, TrianglePacket};
 use crate::fragment::cross_line::CrossLines;
 use crate::fragment::cross_triangle::{CrossPlanes, Row, bits_of_row};
 use crate::fragment::interpolate::VaryingSource;
@@ -37,7 +37,7 @@ const SMALL: i32 = SIDE * 256;
 
 /// A triangle's width and height, in 1/256 pixel.
 #[inline(always)]
-fn extents(triangle: &Triangle) -> [i32; 2] {
+fn extents(triangle: &PackedTriangle) -> [i32; 2] {
     let ([x0, x1, x2], y) = (triangle.x, triangle.y);
     [x0.max(x1).max(x2) - x0.min(x1).min(x2), y[2] - y[0]]
 }
@@ -45,9 +45,9 @@ fn extents(triangle: &Triangle) -> [i32; 2] {
 /// A lane of a batch.
 #[derive(Debug, Clone, Copy)]
 struct Member<'a> {
-    triangle: &'a Triangle,
+    triangle: &'a PackedTriangle,
     /// The triangle that makes a rectangle with it.
-    second: Option<&'a Triangle>,
+    second: Option<&'a PackedTriangle>,
     part: Part,
 }
 
@@ -64,7 +64,7 @@ pub(super) struct Batch<'a> {
 
 impl<'a> Batch<'a> {
     /// A triangle alone.
-    pub(super) fn of(triangle: &'a Triangle) -> Self {
+    pub(super) fn of(triangle: &'a PackedTriangle) -> Self {
         let mut batch = Self::default();
         batch.add(triangle);
         batch
@@ -73,7 +73,7 @@ impl<'a> Batch<'a> {
     /// Returns true if a triangle may be listed, and whether its box is then divided into columns
     /// and into rows of parts.
     #[inline(always)]
-    fn division_of(triangle: &Triangle) -> (bool, [bool; 2]) {
+    fn division_of(triangle: &PackedTriangle) -> (bool, [bool; 2]) {
         // A box may have a column or a row more than the extent says: such a triangle is drawn
         // alone, if its box is not small.
         let [across, down] = extents(triangle);
@@ -84,14 +84,14 @@ impl<'a> Batch<'a> {
 
     /// Returns true if there are lanes for a triangle.
     #[inline(always)]
-    pub(super) fn has_room(&self, triangle: &Triangle) -> bool {
+    pub(super) fn has_room(&self, triangle: &PackedTriangle) -> bool {
         let (_, [columns, rows]) = Self::division_of(triangle);
         self.len + (1 << usize::from(columns) << usize::from(rows)) <= LANES
     }
 
     /// Adds a triangle, for which there must be room.
     #[inline(always)]
-    pub(super) fn add(&mut self, triangle: &'a Triangle) {
+    pub(super) fn add(&mut self, triangle: &'a PackedTriangle) {
         let (is_small, is_divided) = Self::division_of(triangle);
         let before = self.len;
         for below in 0..=i32::from(is_divided[1]) {
@@ -115,7 +115,11 @@ impl<'a> Batch<'a> {
 
     /// Draws a triangle together with the last one, if both make a rectangle; otherwise false.
     #[inline(always)]
-    pub(super) fn join(&mut self, triangle: &'a Triangle, source: &VaryingSource<'_>) -> bool {
+    pub(super) fn join(
+        &mut self,
+        triangle: &'a PackedTriangle,
+        source: &VaryingSource<'_>,
+    ) -> bool {
         let before = self.len - self.last;
         let Some(members) = self.lanes.get_mut(before..self.len) else {
             return false;
@@ -254,7 +258,7 @@ impl Listing {
     }
 }
 
-impl<const N: usize> InOrder<'_, '_, '_, N> {
+impl<const N: usize> InOrder<'_, '_, '_, '_, N> {
     /// Draws a batch, and empties it.
     #[inline(never)]
     pub(super) fn batch(&mut self, batch: &mut Batch<'_>) {
@@ -280,9 +284,9 @@ impl<const N: usize> InOrder<'_, '_, '_, N> {
                 self.list_pixels::<OfTriangles>((lanes & 0xFFFF) as u16);
                 next = lane + run;
             } else {
-                self.triangle(s, member.triangle);
-                if let Some(second) = member.second {
-                    self.triangle(s, second);
+                let triangles = [Some(member.triangle), member.second];
+                for triangle in triangles.into_iter().flatten() {
+                    self.triangle(s, &triangle.unpack());
                 }
                 next = lane + 1;
             }
@@ -306,6 +310,7 @@ impl<const N: usize> InOrder<'_, '_, '_, N> {
             scratch.packet.set(lane, member.triangle);
             scratch.parts.set(lane, member.part);
         }
+        scratch.packet.complete_small(s);
         let lanes = u16::MAX >> (LANES - batch.len.clamp(1, LANES));
         let tile = (self.work.shape, &self.work.rect);
         let packet = &scratch.packet;

@@ -97,7 +97,7 @@ impl ListedValues for OfLines {
     }
 }
 
-impl<'a, const N: usize> InOrder<'a, '_, '_, N> {
+impl<'a, const N: usize> InOrder<'a, '_, '_, '_, N> {
     /// Draws a line with those of the batch, or alone.
     #[inline(always)]
     pub(super) fn add_line(&mut self, batch: &mut LineBatch<'a>, line: &'a LinePrimitive) {

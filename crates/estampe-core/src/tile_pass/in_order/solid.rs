@@ -78,7 +78,7 @@ impl<const N: usize> Solid<N> {
     }
 }
 
-impl<const N: usize> InOrder<'_, '_, '_, N> {
+impl<const N: usize> InOrder<'_, '_, '_, '_, N> {
     /// Gathers the list of a triangle whose varyings are the same at all pixels.
     #[inline(always)]
     pub(super) fn gather(&mut self, varyings: &[f32], front: bool) {

@@ -10,7 +10,7 @@ use crate::raster::packet_origin;
 use crate::tile_pass::TileJob;
 use estampe_simd::{LANES, Lanes, Packet, SimdBase, f32x16};
 
-impl<const N: usize> InOrder<'_, '_, '_, N> {
+impl<const N: usize> InOrder<'_, '_, '_, '_, N> {
     /// Drops the samples that the sample mask excludes and those that fail before shading; false
     /// when nothing is left.
     #[inline(always)]
