@@ -1,0 +1,271 @@
+//! The extension trait of level tokens: operations beyond the methods of the vector types.
+//!
+//! The methods have a form that is right at every level; a level replaces those that it does faster.
+
+#[cfg(target_arch = "aarch64")]
+mod neon;
+#[cfg(scalar_level)]
+mod scalar;
+#[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
+mod simd128;
+#[cfg(target_arch = "x86_64")]
+mod x86;
+
+use crate::{ByteTable, Columns, Level};
+use fearless_simd::{
+    Select, Simd, SimdBase, SimdFloat, SimdMask, f32x16, i32x16, mask32x16, u32x16,
+};
+
+/// A level token for lane code. Every operation gives the same bits at every SIMD level.
+pub trait Lanes: Simd {
+    /// True if lanes are plain scalars, so that code for sixteen lanes is long.
+    const IS_SCALAR: bool = false;
+
+    /// True if one register holds sixteen lanes.
+    const IN_ONE_REGISTER: bool = false;
+
+    /// The SIMD level of the token.
+    fn as_level(self) -> Level;
+
+    /// Runs `work`; at the scalar level as a function of its own. See
+    /// [`outline!`](crate::outline!).
+    #[doc(hidden)]
+    #[inline(always)]
+    fn outline<R>(self, work: impl FnOnce() -> R) -> R {
+        work()
+    }
+
+    /// Begins to bring a value to the cache, where the level has an instruction for that; waits for
+    /// nothing and changes nothing.
+    #[inline(always)]
+    fn prefetch<T>(self, _value: &T) {}
+
+    /// `a < b ? a : b` in each lane: `b` if either is NaN, and of two zeros `b`.
+    #[inline(always)]
+    fn min_f32(self, a: f32x16<Self>, b: f32x16<Self>) -> f32x16<Self> {
+        a.simd_lt(b).select(a, b)
+    }
+
+    /// `a > b ? a : b` in each lane: `b` if either is NaN, and of two zeros `b`.
+    #[inline(always)]
+    fn max_f32(self, a: f32x16<Self>, b: f32x16<Self>) -> f32x16<Self> {
+        a.simd_gt(b).select(a, b)
+    }
+
+    /// The greatest integer that is not above `a`. −0, NaN and infinities are returned unchanged.
+    #[inline(always)]
+    fn floor_f32(self, a: f32x16<Self>) -> f32x16<Self> {
+        a.floor()
+    }
+
+    /// The nearest integer, ties to even, for values within ±2²². The result for other values is
+    /// unspecified but safe.
+    #[inline(always)]
+    fn round_to_i32(self, a: f32x16<Self>) -> i32x16<Self> {
+        // Adding 1.5·2²³ leaves the integer in the low bits of the mantissa, rounded as every
+        // addition is: to nearest, ties to even. These are the same two instructions at every SIMD
+        // level.
+        let magic = f32x16::splat(self, 12_582_912.0);
+        let bits: i32x16<Self> = i32x16::from_bytes_of(a + magic);
+        bits - i32x16::splat(self, 0x4B40_0000)
+    }
+
+    /// `table[index]` in each lane. An index at or beyond the end reads the last element; an empty
+    /// table reads as zeros.
+    fn gather(self, table: &[u32], index: u32x16<Self>) -> u32x16<Self>;
+
+    /// Stores the lanes of a mask: `table[index] = value`, lane by lane, so that of equal indices
+    /// the last one counts. Lanes whose index is beyond the table are left out; elements from 2³¹
+    /// on are not reachable.
+    #[inline(always)]
+    fn scatter(self, table: &mut [u32], index: u32x16<Self>, values: u32x16<Self>, lanes: u16) {
+        crate::gather::scatter_by_lane(table, index, values, lanes);
+    }
+
+    /// `table[index]` in each lane, for an index below 256; for any other index, some element.
+    #[inline(always)]
+    fn lookup(self, table: &[u32; 256], index: u32x16<Self>) -> u32x16<Self> {
+        self.gather(table, index)
+    }
+
+    /// `table[index]` in each lane, for an index below 16; for any other index, some element.
+    #[inline(always)]
+    fn lookup_sixteen(self, table: &[u32; 16], index: u32x16<Self>) -> u32x16<Self> {
+        self.gather(table, index)
+    }
+
+    /// `table[index]`, `table[index + 1]`, `table[index + stride]` and `table[index + stride + 1]`
+    /// in each lane: two neighbours in one row and the two below them. If any of the four is beyond
+    /// the end, the last square is read; a table with fewer than `stride + 2` elements reads as
+    /// zeros.
+    #[inline(always)]
+    fn gather_square(self, table: &[u32], index: u32x16<Self>, stride: u32) -> [u32x16<Self>; 4] {
+        crate::gather::square_by_lane(self, table, index, stride)
+    }
+
+    /// `table[index]` and the next three elements in each lane. If any of the four is beyond the
+    /// end, the last four are read; a table with fewer than four elements reads as zeros.
+    #[inline(always)]
+    fn gather_four(self, table: &[u32], index: u32x16<Self>) -> [u32x16<Self>; 4] {
+        crate::gather::four_by_lane(self, table, index)
+    }
+
+    /// The table's elements for the lowest three bytes of each lane.
+    #[inline(always)]
+    fn lookup_three(self, table: &ByteTable, words: u32x16<Self>) -> [u32x16<Self>; 3] {
+        let byte = u32x16::splat(self, 0xFF);
+        [
+            self.gather(&table.elements, words & byte),
+            self.gather(&table.elements, (words >> 8) & byte),
+            self.gather(&table.elements, (words >> 16) & byte),
+        ]
+    }
+
+    /// `value[order]` in each lane: the lane of `value` that the low four bits of `order` name.
+    #[inline(always)]
+    fn permute(self, value: u32x16<Self>, order: u32x16<Self>) -> u32x16<Self> {
+        crate::permute::by_lane(self, value, order)
+    }
+
+    /// [`permute`](Self::permute) of floats.
+    #[inline(always)]
+    fn permute_f32(self, value: f32x16<Self>, order: u32x16<Self>) -> f32x16<Self> {
+        fearless_simd::Bytes::bitcast(self.permute(fearless_simd::Bytes::bitcast(value), order))
+    }
+
+    /// Lists the bits that are set, in ascending order, bit `i` as `first + i`; what lies behind
+    /// them in `out` is unspecified. Returns how many there are. There is no branch on the bits.
+    #[inline(always)]
+    fn list_bits(self, bits: u16, first: u32, out: &mut [u32; 16]) -> usize {
+        crate::permute::list_by_table(bits, first, out)
+    }
+
+    /// The numbers of half floats, the low 16 bits of each lane, if the level has an instruction
+    /// for it: exact, with quiet NaNs.
+    #[inline(always)]
+    fn decode_half(self, half: u32x16<Self>) -> Option<f32x16<Self>> {
+        let _ = half;
+        None
+    }
+
+    /// The nearest half floats, ties to even, if the level has an instruction for it. Of a NaN some
+    /// NaN.
+    #[inline(always)]
+    fn encode_half(self, value: f32x16<Self>) -> Option<u32x16<Self>> {
+        let _ = value;
+        None
+    }
+
+    /// The values of the first row of a packet that is a block of 4×4 pixels, in each lane that of
+    /// its column.
+    #[inline(always)]
+    fn first_row(self, value: f32x16<Self>) -> f32x16<Self> {
+        let order = [0, 1, 0, 1, 4, 5, 4, 5, 0, 1, 0, 1, 4, 5, 4, 5];
+        crate::block::permuted(self, value, order)
+    }
+
+    /// The values of the first column of a packet that is a block, in each lane that of its row.
+    #[inline(always)]
+    fn first_column(self, value: f32x16<Self>) -> f32x16<Self> {
+        let order = [0, 0, 2, 2, 0, 0, 2, 2, 8, 8, 10, 10, 8, 8, 10, 10];
+        crate::block::permuted(self, value, order)
+    }
+
+    /// Of a packet that is a block the values of its columns in lanes 0 to 3, and of another one
+    /// the values of its rows in lanes 4 to 7; the other lanes repeat them.
+    #[inline(always)]
+    fn columns_and_rows(self, columns: f32x16<Self>, rows: f32x16<Self>) -> f32x16<Self> {
+        let (columns, rows) = (columns.to_array(), rows.to_array());
+        let mut both = columns;
+        let mut lane = 0;
+        while lane < 16 {
+            let at = crate::block::COLUMNS_AND_ROWS[lane % 8];
+            both[lane] = if lane % 8 < 4 { columns[at] } else { rows[at] };
+            lane += 1;
+        }
+        f32x16::load_array(self, both)
+    }
+
+    /// The values of lanes 0 to 3, each four times.
+    #[inline(always)]
+    fn spread_columns(self, value: f32x16<Self>) -> f32x16<Self> {
+        let order = [0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3];
+        crate::block::permuted(self, value, order)
+    }
+
+    /// The values of lanes 4 to 7, each in all lanes.
+    #[inline(always)]
+    fn spread_rows(self, value: f32x16<Self>) -> [f32x16<Self>; 4] {
+        let of = value.to_array();
+        [
+            f32x16::splat(self, of[4]),
+            f32x16::splat(self, of[5]),
+            f32x16::splat(self, of[6]),
+            f32x16::splat(self, of[7]),
+        ]
+    }
+
+    /// What [`half_texels`](Self::half_texels) needs of the texels of columns in lanes 0 to 3, at
+    /// the levels that use it.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn places_of_texels(self, texel: u32x16<Self>) -> u32x16<Self> {
+        texel
+    }
+
+    /// The left texels of four columns, then the right ones, of a window of eight texels of four
+    /// half floats; `None` if the level does not decode half floats.
+    #[inline(always)]
+    fn half_texels(self, window: &[u32; 16], columns: &Columns<Self>) -> Option<[f32x16<Self>; 2]> {
+        let _ = (window, columns);
+        None
+    }
+
+    /// Four texels of four half floats; `None` if the level does not decode half floats.
+    #[inline(always)]
+    fn row_of_halves(self, words: &[u32; 8]) -> Option<f32x16<Self>> {
+        let _ = words;
+        None
+    }
+
+    /// Four channels of a packet that is a block, from its four rows of four texels.
+    #[inline(always)]
+    fn channels_of_rows(self, rows: [f32x16<Self>; 4]) -> [f32x16<Self>; 4] {
+        crate::block::channels(self, rows)
+    }
+
+    /// A mask from its low 16 bits: bit `i` is lane `i`.
+    #[inline(always)]
+    fn mask_from_bits(self, bits: u16) -> mask32x16<Self> {
+        mask32x16::from_bitmask(self, u64::from(bits))
+    }
+
+    /// The mask as 16 bits: lane `i` is bit `i`.
+    #[inline(always)]
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "a mask of 16 lanes has 16 bits"
+    )]
+    fn bits_of_mask(self, mask: mask32x16<Self>) -> u16 {
+        mask.to_bitmask() as u16
+    }
+
+    /// Bit `i` is set if lane `i` is negative (its sign bit is set).
+    #[inline(always)]
+    fn sign_bits(self, a: i32x16<Self>) -> u16 {
+        self.bits_of_mask(a.simd_lt(i32x16::splat(self, 0)))
+    }
+}
+
+/// Reinterprets the bits of sixteen lanes.
+pub(crate) trait FromBytesOf<S: Simd> {
+    /// Reinterprets the 64 bytes of `value` as this type.
+    fn from_bytes_of(value: f32x16<S>) -> Self;
+}
+
+impl<S: Simd> FromBytesOf<S> for i32x16<S> {
+    #[inline(always)]
+    fn from_bytes_of(value: f32x16<S>) -> Self {
+        fearless_simd::Bytes::bitcast(value)
+    }
+}

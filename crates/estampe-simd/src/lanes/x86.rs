@@ -1,0 +1,240 @@
+//! The levels of x86-64: SSE2, AVX2 and AVX-512.
+
+use super::Lanes;
+use crate::{ByteTable, Columns, Level};
+use fearless_simd::x86::{Avx2, Avx512, Sse2};
+use fearless_simd::{
+    Select, SimdBase, SimdCvtFloat, SimdCvtTruncate, SimdFloat, f32x16, i32x16, u32x16,
+};
+
+impl Lanes for Sse2 {
+    #[inline(always)]
+    fn as_level(self) -> Level {
+        Level::Sse2(self)
+    }
+
+    #[inline(never)]
+    fn outline<R>(self, work: impl FnOnce() -> R) -> R {
+        work()
+    }
+    #[inline(always)]
+    fn prefetch<T>(self, value: &T) {
+        crate::prefetch::sse2(self, value);
+    }
+    #[inline(always)]
+    fn min_f32(self, a: f32x16<Self>, b: f32x16<Self>) -> f32x16<Self> {
+        a.min(b)
+    }
+    #[inline(always)]
+    fn max_f32(self, a: f32x16<Self>, b: f32x16<Self>) -> f32x16<Self> {
+        a.max(b)
+    }
+    /// SSE2 has no rounding instruction, and a call per lane is slow. So: truncate, subtract 1
+    /// where that rounded up, keep values without a fraction, and restore the sign of zeros.
+    #[inline(never)]
+    fn floor_f32(self, a: f32x16<Self>) -> f32x16<Self> {
+        let int = i32x16::truncate_from(a);
+        let truncated = f32x16::float_from(int);
+        let one = f32x16::splat(self, 1.0);
+        let zero = f32x16::splat(self, 0.0);
+        let floored = truncated - truncated.simd_gt(a).select(one, zero);
+        let small = a.abs().simd_lt(f32x16::splat(self, 8_388_608.0));
+        small.select(floored.copysign(a), a)
+    }
+
+    #[inline(never)]
+    fn gather(self, table: &[u32], index: u32x16<Self>) -> u32x16<Self> {
+        crate::gather::by_lane(self, table, index)
+    }
+
+    #[inline(never)]
+    fn gather_square(self, table: &[u32], index: u32x16<Self>, stride: u32) -> [u32x16<Self>; 4] {
+        crate::gather::square_sse2(self, table, index, stride)
+    }
+
+    #[inline(never)]
+    fn gather_four(self, table: &[u32], index: u32x16<Self>) -> [u32x16<Self>; 4] {
+        crate::gather::four_sse2(self, table, index)
+    }
+
+    #[inline(never)]
+    fn permute(self, value: u32x16<Self>, order: u32x16<Self>) -> u32x16<Self> {
+        crate::permute::by_lane(self, value, order)
+    }
+}
+
+impl Lanes for Avx2 {
+    #[inline(always)]
+    fn as_level(self) -> Level {
+        Level::Avx2(self)
+    }
+    #[inline(always)]
+    fn prefetch<T>(self, value: &T) {
+        crate::prefetch::avx2(self, value);
+    }
+    #[inline(always)]
+    fn min_f32(self, a: f32x16<Self>, b: f32x16<Self>) -> f32x16<Self> {
+        a.min(b)
+    }
+    #[inline(always)]
+    fn max_f32(self, a: f32x16<Self>, b: f32x16<Self>) -> f32x16<Self> {
+        a.max(b)
+    }
+    #[inline(always)]
+    fn decode_half(self, half: u32x16<Self>) -> Option<f32x16<Self>> {
+        Some(crate::half::decode_avx2(self, half))
+    }
+    #[inline(always)]
+    fn encode_half(self, value: f32x16<Self>) -> Option<u32x16<Self>> {
+        Some(crate::half::encode_avx2(self, value))
+    }
+    #[inline(always)]
+    fn first_row(self, value: f32x16<Self>) -> f32x16<Self> {
+        crate::block::first_row_avx2(self, value)
+    }
+    #[inline(always)]
+    fn first_column(self, value: f32x16<Self>) -> f32x16<Self> {
+        crate::block::first_column_avx2(self, value)
+    }
+    #[inline(always)]
+    fn columns_and_rows(self, columns: f32x16<Self>, rows: f32x16<Self>) -> f32x16<Self> {
+        crate::block::columns_and_rows_avx2(self, columns, rows)
+    }
+    #[inline(always)]
+    fn spread_columns(self, value: f32x16<Self>) -> f32x16<Self> {
+        crate::block::spread_avx2(self, value)
+    }
+    #[inline(always)]
+    fn half_texels(self, window: &[u32; 16], columns: &Columns<Self>) -> Option<[f32x16<Self>; 2]> {
+        Some(crate::block::halves_avx2(self, window, columns))
+    }
+    #[inline(always)]
+    fn row_of_halves(self, words: &[u32; 8]) -> Option<f32x16<Self>> {
+        Some(crate::block::row_avx2(self, words))
+    }
+    #[inline(always)]
+    fn channels_of_rows(self, rows: [f32x16<Self>; 4]) -> [f32x16<Self>; 4] {
+        crate::block::channels_avx2(self, rows)
+    }
+    #[inline(always)]
+    fn gather(self, table: &[u32], index: u32x16<Self>) -> u32x16<Self> {
+        crate::gather::avx2(self, table, index)
+    }
+    #[inline(always)]
+    fn lookup_sixteen(self, table: &[u32; 16], index: u32x16<Self>) -> u32x16<Self> {
+        crate::lookup::sixteen_avx2(self, table, index)
+    }
+    #[inline(always)]
+    fn gather_square(self, table: &[u32], index: u32x16<Self>, stride: u32) -> [u32x16<Self>; 4] {
+        crate::gather::square_avx2(self, table, index, stride)
+    }
+    #[inline(always)]
+    fn gather_four(self, table: &[u32], index: u32x16<Self>) -> [u32x16<Self>; 4] {
+        crate::gather::four_avx2(self, table, index)
+    }
+    #[inline(always)]
+    fn permute(self, value: u32x16<Self>, order: u32x16<Self>) -> u32x16<Self> {
+        crate::permute::permute_avx2(self, value, order)
+    }
+}
+
+impl Lanes for Avx512 {
+    const IN_ONE_REGISTER: bool = true;
+
+    #[inline(always)]
+    fn as_level(self) -> Level {
+        Level::Avx512(self)
+    }
+    #[inline(always)]
+    fn prefetch<T>(self, value: &T) {
+        crate::prefetch::avx512(self, value);
+    }
+    #[inline(always)]
+    fn min_f32(self, a: f32x16<Self>, b: f32x16<Self>) -> f32x16<Self> {
+        a.min(b)
+    }
+    #[inline(always)]
+    fn max_f32(self, a: f32x16<Self>, b: f32x16<Self>) -> f32x16<Self> {
+        a.max(b)
+    }
+    #[inline(always)]
+    fn decode_half(self, half: u32x16<Self>) -> Option<f32x16<Self>> {
+        Some(crate::half::decode_avx512(self, half))
+    }
+    #[inline(always)]
+    fn encode_half(self, value: f32x16<Self>) -> Option<u32x16<Self>> {
+        Some(crate::half::encode_avx512(self, value))
+    }
+    #[inline(always)]
+    fn first_row(self, value: f32x16<Self>) -> f32x16<Self> {
+        crate::block::first_row_avx512(self, value)
+    }
+    #[inline(always)]
+    fn first_column(self, value: f32x16<Self>) -> f32x16<Self> {
+        crate::block::first_column_avx512(self, value)
+    }
+    #[inline(always)]
+    fn columns_and_rows(self, columns: f32x16<Self>, rows: f32x16<Self>) -> f32x16<Self> {
+        crate::block::columns_and_rows_avx512(self, columns, rows)
+    }
+    #[inline(always)]
+    fn spread_columns(self, value: f32x16<Self>) -> f32x16<Self> {
+        crate::block::spread_avx512(self, value)
+    }
+    #[inline(always)]
+    fn spread_rows(self, value: f32x16<Self>) -> [f32x16<Self>; 4] {
+        crate::block::spread_rows_avx512(self, value)
+    }
+    #[inline(always)]
+    fn places_of_texels(self, texel: u32x16<Self>) -> u32x16<Self> {
+        crate::block::places_avx512(self, texel)
+    }
+    #[inline(always)]
+    fn half_texels(self, window: &[u32; 16], columns: &Columns<Self>) -> Option<[f32x16<Self>; 2]> {
+        Some(crate::block::halves_avx512(self, window, columns))
+    }
+    #[inline(always)]
+    fn row_of_halves(self, words: &[u32; 8]) -> Option<f32x16<Self>> {
+        Some(crate::block::row_avx512(self, words))
+    }
+    #[inline(always)]
+    fn channels_of_rows(self, rows: [f32x16<Self>; 4]) -> [f32x16<Self>; 4] {
+        crate::block::channels_avx512(self, rows)
+    }
+    #[inline(always)]
+    fn gather(self, table: &[u32], index: u32x16<Self>) -> u32x16<Self> {
+        crate::gather::avx512(self, table, index)
+    }
+    #[inline(always)]
+    fn lookup_sixteen(self, table: &[u32; 16], index: u32x16<Self>) -> u32x16<Self> {
+        crate::lookup::sixteen_avx512(self, table, index)
+    }
+    #[inline(always)]
+    fn scatter(self, table: &mut [u32], index: u32x16<Self>, values: u32x16<Self>, lanes: u16) {
+        crate::gather::scatter_avx512(self, table, index, values, lanes);
+    }
+    #[inline(always)]
+    fn lookup(self, table: &[u32; 256], index: u32x16<Self>) -> u32x16<Self> {
+        crate::lookup::avx512(self, table, index)
+    }
+    #[inline(always)]
+    fn gather_square(self, table: &[u32], index: u32x16<Self>, stride: u32) -> [u32x16<Self>; 4] {
+        crate::gather::square_avx512(self, table, index, stride)
+    }
+    #[inline(always)]
+    fn gather_four(self, table: &[u32], index: u32x16<Self>) -> [u32x16<Self>; 4] {
+        crate::gather::four_avx512(self, table, index)
+    }
+    #[inline(always)]
+    fn permute(self, value: u32x16<Self>, order: u32x16<Self>) -> u32x16<Self> {
+        crate::permute::permute_avx512(self, value, order)
+    }
+    #[inline(always)]
+    fn list_bits(self, bits: u16, first: u32, out: &mut [u32; 16]) -> usize {
+        crate::permute::list_avx512(self, bits, first, out)
+    }
+    #[inline(always)]
+    fn lookup_three(self, table: &ByteTable, words: u32x16<Self>) -> [u32x16<Self>; 3] {
+        crate::lookup::three_avx512(self, table, words)
+    }
+}
