@@ -1,7 +1,7 @@
 //! Final steps of all readers: removal of non-finite corners, computation of missing normals.
 
 use super::load::{Context, Parsed};
-use super::normals::{self, NormalMode};
+use super::normals::{self, NormalMode, Positions};
 use estampe_scene::{Material, Mesh, Scene, Surface};
 use glam::{Vec2, Vec3};
 
@@ -39,7 +39,12 @@ pub(super) fn finish(mut parsed: Parsed, context: &mut Context<'_>) -> Parsed {
     };
     let lacks_normals = |mesh: &Mesh| mesh.normals.is_empty() && !mesh.triangles.is_empty();
     parsed.contents.has_made_normals = parsed.scene.meshes.iter().map(lacks_normals).collect();
-    normals::fill_missing_by(&mut parsed.scene.meshes, mode, context.workers);
+    let positions = if parsed.has_distinct_positions {
+        Positions::Distinct
+    } else {
+        Positions::Any
+    };
+    normals::fill_missing_by(&mut parsed.scene.meshes, mode, positions, context.workers);
     let is_empty =
         |mesh: &Mesh| mesh.triangles.is_empty() && mesh.lines.is_empty() && mesh.points.is_empty();
     if parsed.scene.meshes.iter().all(is_empty) {

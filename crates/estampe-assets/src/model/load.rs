@@ -101,6 +101,8 @@ pub(super) struct Parsed {
     pub(super) parameter_points: Vec<Vec3>,
     /// Missing normals are those of the triangles, without smooth edges.
     pub(super) has_flat_normals: bool,
+    /// No two vertices of any meshes have the same position: a reader has joined those that had.
+    pub(super) has_distinct_positions: bool,
     pub(super) choices: ModelChoices,
     pub(super) contents: ModelContents,
 }

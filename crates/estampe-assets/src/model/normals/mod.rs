@@ -56,11 +56,25 @@ impl Default for NormalMode<'_> {
 /// of it, with all attributes, are appended. Smoothing crosses the borders of meshes that share
 /// positions. Triangles without area get their neighbours' normal, or (0, 0, 0).
 pub fn fill_missing(meshes: &mut [Mesh], mode: NormalMode<'_>) {
-    fill_missing_by(meshes, mode, Workers::default());
+    fill_missing_by(meshes, mode, Positions::Any, Workers::default());
+}
+
+/// Knowledge of the positions of vertices, over all meshes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Positions {
+    /// Vertices may have the same position: equal positions are searched for.
+    Any,
+    /// Each vertex has a position of its own.
+    Distinct,
 }
 
 /// [`fill_missing`] with these threads.
-pub(super) fn fill_missing_by(meshes: &mut [Mesh], mode: NormalMode<'_>, workers: Workers) {
+pub(super) fn fill_missing_by(
+    meshes: &mut [Mesh],
+    mode: NormalMode<'_>,
+    positions: Positions,
+    workers: Workers,
+) {
     let lacks = |mesh: &Mesh| {
         !mesh.triangles.is_empty()
             && (mesh.normals.is_empty() || mesh.normals.contains(&Vec3::ZERO))
@@ -75,7 +89,7 @@ pub(super) fn fill_missing_by(meshes: &mut [Mesh], mode: NormalMode<'_>, workers
         "limits keep corners below 2^32"
     );
     let is_missing: Vec<Vec<bool>> = meshes.iter().map(missing_normals).collect();
-    let mut corners = corner_normals(meshes, mode, workers);
+    let mut corners = corner_normals(meshes, mode, positions, workers);
     if let [mesh] = &mut *meshes
         && mesh.normals.is_empty()
     {
@@ -151,14 +165,25 @@ fn weld(meshes: &[Mesh], workers: Workers) -> Vec<u32> {
     weld::first_equals(positions.len(), positions.len(), key, workers)
 }
 
-fn corner_normals(meshes: &[Mesh], mode: NormalMode<'_>, workers: Workers) -> CornerNormals {
+fn corner_normals(
+    meshes: &[Mesh],
+    mode: NormalMode<'_>,
+    positions: Positions,
+    workers: Workers,
+) -> CornerNormals {
     let faces = faces::all(meshes, workers);
     let grouping = match mode {
         NormalMode::Flat => return CornerNormals::flat(&faces),
         NormalMode::CreaseAngle { degrees } => Grouping::by_angle(degrees),
         NormalMode::SmoothingGroups(groups) => Grouping::by_group(meshes, groups),
     };
-    let point_of_vertex = weld(meshes, workers);
+    let point_of_vertex = match positions {
+        Positions::Any => weld(meshes, workers),
+        Positions::Distinct => {
+            let vertices: usize = meshes.iter().map(|mesh| mesh.positions.len()).sum();
+            (0..).take(vertices).collect()
+        }
+    };
     let triangles = match meshes {
         // All vertices are separate points: the usual mesh without texture coordinates.
         [mesh]

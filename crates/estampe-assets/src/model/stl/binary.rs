@@ -97,8 +97,9 @@ fn is_plausible(records: &[Record]) -> bool {
     if sizes.len() < LEAST {
         return true;
     }
-    sizes.sort_unstable_by(f32::total_cmp);
-    let (first, third) = (sizes[sizes.len() / 4], sizes[sizes.len() / 4 * 3]);
+    let at = sizes.len() / 4;
+    let (_, &mut third, _) = sizes.select_nth_unstable_by(at * 3, f32::total_cmp);
+    let (_, &mut first, _) = sizes[..at * 3].select_nth_unstable_by(at, f32::total_cmp);
     third / first <= MOST_SPREAD
 }
 

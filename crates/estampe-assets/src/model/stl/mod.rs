@@ -44,6 +44,8 @@ pub(super) fn parse(bytes: &[u8], context: &mut Context<'_>) -> Result<Parsed, A
     } else {
         vec![binary::read(bytes, context)?]
     };
+    // The corners of a mesh were joined by position and, if it has colours, by those.
+    let has_distinct_positions = matches!(&meshes[..], [mesh] if mesh.colors.is_empty());
     let scene = Scene {
         meshes,
         up: UpAxis::Z,
@@ -51,6 +53,7 @@ pub(super) fn parse(bytes: &[u8], context: &mut Context<'_>) -> Result<Parsed, A
     };
     Ok(Parsed {
         scene,
+        has_distinct_positions,
         ..Parsed::default()
     })
 }

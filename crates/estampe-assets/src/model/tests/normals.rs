@@ -1,6 +1,6 @@
 //! Computation of missing normals.
 
-use crate::model::normals::{self, NormalMode};
+use crate::model::normals::{self, NormalMode, Positions};
 use crate::model::weld::{first_equals, key};
 use estampe_scene::{Mesh, Workers};
 use glam::Vec3;
@@ -48,6 +48,22 @@ fn tube(sides: u32) -> Mesh {
 fn face_normal(mesh: &Mesh, triangle: [u32; 3]) -> Vec3 {
     let [a, b, c] = triangle.map(|vertex| mesh.positions[vertex as usize]);
     (b - a).cross(c - a).normalize()
+}
+
+/// Meshes whose positions are distinct get the same normals without a search.
+#[test]
+fn distinct_positions_need_no_search() {
+    for mesh in [cube(), tube(7), tube(40)] {
+        for mode in [NormalMode::default(), NormalMode::Flat] {
+            let [mut searched, mut told] = [[mesh.clone()], [mesh.clone()]];
+            normals::fill_missing(&mut searched, mode);
+            let workers = Workers::default();
+            normals::fill_missing_by(&mut told, mode, Positions::Distinct, workers);
+            assert_eq!(searched[0].normals, told[0].normals);
+            assert_eq!(searched[0].triangles, told[0].triangles);
+            assert!(!told[0].normals.is_empty());
+        }
+    }
 }
 
 #[test]
