@@ -22,7 +22,7 @@ struct Sampled {
     sampler: SamplerDescriptor,
     /// `None` if the sampler cannot sample the texture.
     texture: Option<SampledTexture>,
-    next: OnceLock<Box<Sampled>>,
+    next: OnceLock<Box<Self>>,
 }
 
 impl BoundTexture {
