@@ -214,7 +214,7 @@ fn uncertain<S: Lanes, const CHANNELS: usize>(
     let mut any = near(estimates[0]);
     let mut channel = 1;
     while channel < CHANNELS {
-        any = any | near(estimates[channel]);
+        any |= near(estimates[channel]);
         channel += 1;
     }
     any
