@@ -1,6 +1,6 @@
 //! The extension trait of level tokens: operations beyond the methods of the vector types.
 //!
-//! The methods have a form that is right at every level; a level replaces those that it does faster.
+//! Each method has a form that is right at every level; a level replaces what it does faster.
 
 #[cfg(target_arch = "aarch64")]
 mod neon;
