@@ -214,8 +214,12 @@ fn packets_that_triangles_cover_are_not_cleared() {
             if !case.more_formats.is_empty() {
                 draw.shader = Layers::<2>(0).into();
             }
-            draw.write_mask =
-                random.pick(&[ColorWrites::ALL, ColorWrites::ALL, ColorWrites::COLOR]);
+            draw.write_mask = random.pick(&[
+                ColorWrites::ALL,
+                ColorWrites::ALL,
+                ColorWrites::COLOR,
+                ColorWrites::NONE,
+            ]);
             draw.blend = random.pick(&[None, None, None, Some(BlendState::ALPHA_BLENDING)]);
             case.draws.push(draw);
         }

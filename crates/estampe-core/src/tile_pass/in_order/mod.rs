@@ -117,7 +117,8 @@ pub(super) fn draw<const N: usize>(
     planes.resize(VaryingPlanes::size(scalars), 0.0);
     let is_scalar = work.level.is_scalar();
     let mut drawing = InOrder::new(work, entries.first().copied(), job, scratch);
-    drawing.ahead = Some(ahead);
+    // The scalar level draws triangles from their packets.
+    drawing.ahead = (!is_scalar).then_some(ahead);
     drawing.planes = planes;
     let (mut batch, mut lines) = (Batch::default(), LineBatch::default());
     // Samples of a pixel may lie on both sides of a rectangle's side.
