@@ -9,6 +9,10 @@ use fearless_simd::{Bytes, SimdBase, f32x16, i32x16, u32x16};
 
 /// The texels of a window of eight that belong to the four columns of a block.
 #[derive(Debug, Clone, Copy)]
+#[cfg_attr(
+    not(target_arch = "x86_64"),
+    allow(dead_code, reason = "only the levels of x86-64 read them")
+)]
 pub struct Columns<S: Lanes> {
     /// For each of four times four floats its place among the window's 32.
     pub(crate) places: u32x16<S>,

@@ -13,6 +13,10 @@ pub struct ByteTable {
 /// Aligned like the registers that they are loaded into.
 #[derive(Debug, Clone)]
 #[repr(align(64))]
+#[cfg_attr(
+    not(target_arch = "x86_64"),
+    allow(dead_code, reason = "only the levels of x86-64 read it")
+)]
 pub(crate) struct Bytes(pub(crate) [u8; 256]);
 
 impl ByteTable {
