@@ -146,7 +146,8 @@ fn memory(results: &Results, out: &mut String) {
          bytes, which is 84; and for each packet and tile that it touches an entry of 12 bytes when binned and 8 when\n\
          sorted, in lists that double when they grow. That is 100 bytes and the entries. Measured memory above that was\n\
          freed by growing lists and kept by the allocator. Draw batches of two million primitives bound all of it: larger\n\
-         frames reuse the memory. A pixel takes 4 bytes for each sample of each attachment, in blocks of 64×64.\n",
+         frames reuse the memory. A pixel takes 4 bytes for each sample of each attachment, in blocks of 64×64; of\n\
+         attachments that a pass of one batch clears and discards, as pictures of `estampe render` do, nothing.\n",
     );
     let Some(memory) = &results.memory else {
         return;
