@@ -48,6 +48,11 @@ impl BoundTexture {
     /// sample it.
     #[must_use]
     pub fn sampled(&self, sampler: &SamplerDescriptor) -> Option<&SampledTexture> {
+        // Equal to none, not even to itself: the list would grow with every use. No texture can be
+        // sampled so.
+        if sampler.lod_min_clamp.is_nan() || sampler.lod_max_clamp.is_nan() {
+            return None;
+        }
         let (mut next, mut is_made) = (&self.first, false);
         loop {
             let entry = next.get_or_init(|| {

@@ -103,10 +103,11 @@ fn many_pipelines_in_one_pass_and_in_two() {
 /// Rows: U3.
 #[test]
 fn more_primitives_than_a_chunk_holds() {
-    // Several chunks of 4096 primitives, made by several workers and read by the tiles in order.
+    // More than the 16,384 primitives of a chunk: several chunks on one thread too, made by several
+    // workers where there are some, and read by the tiles in order.
     check("passes/chunks", 2, |random| {
         let mut case = Case::new([70, 66], random.pick(&[1, 4]));
-        let vertices = triangles(random, Style::Tiny, case.size, 3000);
+        let vertices = triangles(random, Style::Tiny, case.size, 4000);
         for topology in [
             PrimitiveTopology::TriangleList,
             PrimitiveTopology::TriangleStrip,

@@ -95,7 +95,7 @@ fn threads_share_what_a_texture_and_its_samplers_become() {
         joined.map(|all| all.expect("none panics")).collect()
     });
     assert!(found.iter().all(|all| *all == found[0]));
-    // One that cannot sample it is found out once, too.
+    // One that cannot sample it, and equals no other, is refused.
     let none = SamplerDescriptor {
         lod_min_clamp: f32::NAN,
         ..SamplerDescriptor::default()
