@@ -50,7 +50,8 @@ impl BoundTexture {
     pub fn sampled(&self, sampler: &SamplerDescriptor) -> Option<&SampledTexture> {
         // Equal to none, not even to itself: the list would grow with every use. No texture can be
         // sampled so.
-        if sampler.lod_min_clamp.is_nan() || sampler.lod_max_clamp.is_nan() {
+        let (least, most) = (sampler.lod_min_clamp, sampler.lod_max_clamp);
+        if least.is_nan() || most.is_nan() || sampler.lod_bias.is_nan() {
             return None;
         }
         let (mut next, mut is_made) = (&self.first, false);
