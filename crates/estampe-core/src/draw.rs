@@ -16,6 +16,7 @@ use crate::plan::sub_draw::SubDraw;
 use crate::plan::tile_plan::{TargetFacts, TilePlan, TileState};
 use crate::profile::JobTimings;
 use crate::raster::MAX_SAMPLES;
+use crate::recycle::recycled;
 use crate::schedule::{Executor, ThreadError, ThreadPool};
 use crate::statistics::Statistics;
 use crate::tile_pass::{self, Clear, MAX_TARGETS, TileJob, TilePass, TileScratch};
@@ -74,14 +75,6 @@ struct Lists {
     tile_states: Vec<TileState<'static>>,
     plans: Vec<TilePlan<'static>>,
     tile_jobs: Vec<TileJob<'static>>,
-}
-
-/// An empty list in the memory of another one, whose elements differ in a lifetime alone. (The
-/// standard library collects in place where sizes agree; if it did not, this would only be slower.)
-fn recycled<A, B>(mut list: Vec<A>) -> Vec<B> {
-    list.clear();
-    let none = |_| unreachable!("the list was cleared");
-    list.into_iter().map(none).collect()
 }
 
 /// The images that tiles are drawn into.

@@ -28,7 +28,7 @@
 //! The modules, in pipeline order: `layout` (which pixel is stored where), [`pipeline`] (state),
 //! `plan`, `geometry`, `bounds`, `raster`, `fragment`, `per_sample`, [`attachment`]; [`draw`] and
 //! `tile_pass` are the two pages that call them in order, `schedule` runs them on threads,
-//! [`profile`] measures them.
+//! [`profile`] measures them, `recycle` keeps memory from pass to pass.
 
 mod depth_format;
 mod layout;
@@ -55,6 +55,7 @@ pub mod commands;
 mod amplified_pass;
 pub mod draw;
 pub mod profile;
+mod recycle;
 mod schedule;
 pub mod statistics;
 mod tile_pass;
@@ -75,6 +76,7 @@ pub use pipeline::{
     check_bind_group_layouts, check_declared, check_immediates,
 };
 pub use plan::pass_check::RenderPassError;
+pub use recycle::recycled;
 pub use schedule::{ThreadError, ThreadPool, ThreadPoolBuilder};
 pub use statistics::Statistics;
 pub use tile_path::{PathCounts, TilePath};

@@ -148,7 +148,7 @@ pub(crate) fn check(
     from.view.texture().require(usage)?;
     from.view.check_sampler(&sampler(device, filter)?)?;
     Ok(pass::check(
-        device.limits(),
+        device,
         &RenderPass {
             label: Some("blit"),
             color_attachments: &[Some(ColorAttachment::load(into.view))],

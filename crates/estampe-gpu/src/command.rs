@@ -164,7 +164,7 @@ impl Command<'_> {
     /// Checks all that [`run`](Self::run) checks before it changes anything.
     fn check(&self, device: &Device) -> Result<(), CommandError> {
         match self {
-            Self::Render(pass) => pass::check(device.limits(), pass)?,
+            Self::Render(pass) => pass::check(device, pass)?,
             Self::Dispatch(dispatch) => compute::check(device.limits(), dispatch)?,
             Self::WriteBuffer {
                 buffer,

@@ -2,6 +2,7 @@
 
 use crate::attachment::TargetShape;
 use crate::commands::{Draw, RenderPass};
+use crate::pipeline::RenderPipeline;
 use estampe_types::TextureFormat;
 use estampe_types::state::Viewport;
 
@@ -110,18 +111,26 @@ impl RenderPass<'_> {
             return Err(RenderPassError::LoadColors { given, attachments });
         }
         let queries = self.occlusion_queries.map_or(0, |queries| queries.count());
-        let mut draws = self.draws.iter().enumerate();
-        draws.try_for_each(|(number, draw)| check_draw(target, queries, number, draw))
+        let mut last: Option<&RenderPipeline> = None;
+        for (number, draw) in self.draws.iter().enumerate() {
+            // Draws in a row mostly have one pipeline.
+            if !last.is_some_and(|last| std::ptr::eq(last, draw.pipeline)) {
+                check_pipeline(target, number, draw.pipeline)?;
+                last = Some(draw.pipeline);
+            }
+            check_draw(queries, number, draw)?;
+        }
+        Ok(())
     }
 }
 
-fn check_draw(
+/// Checks that a draw's pipeline is for the formats and samples of a target.
+fn check_pipeline(
     target: &TargetShape<'_>,
-    queries: usize,
     number: usize,
-    draw: &Draw<'_>,
+    pipeline: &RenderPipeline,
 ) -> Result<(), RenderPassError> {
-    let descriptor = draw.pipeline.descriptor();
+    let descriptor = pipeline.descriptor();
     if descriptor.multisample.count != target.samples {
         return Err(RenderPassError::Samples {
             draw: number,
@@ -141,8 +150,7 @@ fn check_draw(
             target: target.color_formats.to_vec(),
         });
     }
-    if draw.pipeline.key().depth.is_some()
-        && !target.depth_stencil.is_some_and(TextureFormat::has_depth)
+    if pipeline.key().depth.is_some() && !target.depth_stencil.is_some_and(TextureFormat::has_depth)
     {
         return Err(RenderPassError::NoDepth { draw: number });
     }
@@ -153,6 +161,11 @@ fn check_draw(
     {
         return Err(RenderPassError::NoStencil { draw: number });
     }
+    Ok(())
+}
+
+/// Checks a draw's viewports and its occlusion query.
+fn check_draw(queries: usize, number: usize, draw: &Draw<'_>) -> Result<(), RenderPassError> {
     let more = draw.more_viewports.iter().filter_map(|more| more.viewport);
     let mut viewports = draw.viewport.into_iter().chain(more);
     if let Some(viewport) = viewports.find(|viewport| !is_valid(viewport)) {

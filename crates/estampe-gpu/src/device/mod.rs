@@ -3,11 +3,12 @@
 mod commands;
 mod create;
 
+use crate::pass::DrawMemory;
 use crate::{Level, Limits};
 use estampe_core::Context;
 use estampe_core::ThreadPool;
 use estampe_core::profile::JobTimings;
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
 /// Threads, SIMD level and limits of a device.
@@ -62,6 +63,8 @@ pub struct Device {
     #[cfg(feature = "shader-text")]
     interprets_shaders: bool,
     created: Instant,
+    /// Memory of draws that no pass uses now: one for each pass that was drawn beside others.
+    draw_memory: Mutex<Vec<DrawMemory>>,
 }
 
 impl Device {
@@ -84,6 +87,7 @@ impl Device {
             #[cfg(feature = "shader-text")]
             interprets_shaders: descriptor.interprets_shaders,
             created: Instant::now(),
+            draw_memory: Mutex::default(),
         })
     }
 
@@ -97,6 +101,7 @@ impl Device {
             #[cfg(feature = "shader-text")]
             interprets_shaders: false,
             created: Instant::now(),
+            draw_memory: Mutex::default(),
         }
     }
 
@@ -124,6 +129,21 @@ impl Device {
     #[must_use]
     pub fn age(&self) -> Duration {
         self.created.elapsed()
+    }
+
+    /// Memory for the draws of a pass.
+    pub(crate) fn take_draw_memory(&self) -> DrawMemory {
+        self.draw_memories().pop().unwrap_or_default()
+    }
+
+    /// Keeps memory for the draws of another pass.
+    pub(crate) fn keep_draw_memory(&self, memory: DrawMemory) {
+        self.draw_memories().push(memory);
+    }
+
+    fn draw_memories(&self) -> MutexGuard<'_, Vec<DrawMemory>> {
+        let kept = self.draw_memory.lock();
+        kept.unwrap_or_else(PoisonError::into_inner)
     }
 
     pub(crate) fn context(&self) -> &Context {

@@ -78,7 +78,7 @@ pub(crate) fn inspect(
             let layers = u32::try_from(layers.len()).unwrap_or(u32::MAX);
             return Err(InspectError::NoLayer { layer, layers });
         };
-        let draws = data.draws(pass.draws);
+        let draws = data.draws(device.context(), pass.draws);
         let core_pass = core_pass(pass, attachments.loads(), &draws);
         let checked = attachments.with_shape(|shape| core_pass.check(shape));
         checked.map_err(|error| refused(pass, error.into()))?;

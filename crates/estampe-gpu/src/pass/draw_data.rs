@@ -62,26 +62,116 @@ impl<'a> Groups<'a> {
     }
 }
 
-/// The plain data that the draws of a pass refer to.
-#[derive(Debug)]
+/// Draws whose data one thread makes.
+pub(super) const PART_DRAWS: usize = 512;
+
+/// The plain data that the draws of a pass refer to, made on all threads.
+#[derive(Debug, Default)]
 pub(crate) struct DrawData {
+    /// The data of each [`PART_DRAWS`] draws; more than there are draws for are empty.
+    parts: Vec<PartData>,
+}
+
+/// The plain data of a part of a pass's draws.
+#[derive(Debug, Default)]
+struct PartData {
     buffers: Vec<BufferData>,
     bindings: Vec<Bindings>,
     /// For each draw: its vertex buffers, its index buffer, its bindings.
     of_draws: Vec<(Range<usize>, Option<usize>, Option<usize>)>,
 }
 
+/// Memory of a pass's draws, kept for the next pass.
+#[derive(Debug, Default)]
+pub(crate) struct DrawMemory {
+    pub(super) data: DrawData,
+    pub(super) draws: Vec<estampe_core::Draw<'static>>,
+}
+
+impl DrawMemory {
+    /// Lets go of what the draws refer to, on all threads.
+    pub(super) fn clear(&mut self, context: &Context) {
+        self.draws.clear();
+        context.for_each(&mut self.data.parts, PartData::clear);
+    }
+}
+
 impl DrawData {
     pub(super) fn new(
+        context: &Context,
         draws: &[Draw<'_>],
         groups: &Groups<'_>,
         resources: &[Arc<BoundResources>],
     ) -> Self {
-        let mut data = Self {
-            buffers: Vec::new(),
-            bindings: Vec::new(),
-            of_draws: Vec::with_capacity(draws.len()),
+        let mut data = Self::default();
+        data.fill(context, draws, groups, resources);
+        data
+    }
+
+    /// Makes the data of draws in memory that holds none.
+    pub(super) fn fill(
+        &mut self,
+        context: &Context,
+        draws: &[Draw<'_>],
+        groups: &Groups<'_>,
+        resources: &[Arc<BoundResources>],
+    ) {
+        let parts = draws.chunks(PART_DRAWS);
+        if self.parts.len() < parts.len() {
+            self.parts.resize_with(parts.len(), PartData::default);
+        }
+        let mut jobs: Vec<_> = self.parts.iter_mut().zip(parts).collect();
+        context.for_each(&mut jobs, |(part, draws)| {
+            part.fill(draws, groups, resources);
+        });
+    }
+
+    /// The draws as the core sees them.
+    pub(crate) fn draws<'a>(
+        &'a self,
+        context: &Context,
+        draws: &[Draw<'a>],
+    ) -> Vec<estampe_core::Draw<'a>> {
+        let mut all = Vec::new();
+        self.draws_into(context, draws, &mut all);
+        all
+    }
+
+    /// The draws as the core sees them, in an empty list.
+    pub(super) fn draws_into<'a>(
+        &'a self,
+        context: &Context,
+        draws: &[Draw<'a>],
+        into: &mut Vec<estampe_core::Draw<'a>>,
+    ) {
+        debug_assert!(into.is_empty(), "a list that was cleared");
+        let Some(first) = draws.first() else {
+            return;
         };
+        // Each is replaced.
+        into.resize(
+            draws.len(),
+            estampe_core::Draw::new(first.pipeline, first.elements.clone()),
+        );
+        let parts = self.parts.iter().zip(draws.chunks(PART_DRAWS));
+        let mut jobs: Vec<_> = into.chunks_mut(PART_DRAWS).zip(parts).collect();
+        context.for_each(&mut jobs, |(into, (part, draws))| {
+            for ((into, draw), data) in into.iter_mut().zip(*draws).zip(&part.of_draws) {
+                *into = part.draw(draw, data);
+            }
+        });
+    }
+}
+
+impl PartData {
+    fn clear(&mut self) {
+        self.buffers.clear();
+        self.bindings.clear();
+        self.of_draws.clear();
+    }
+
+    /// Makes the data of draws.
+    fn fill(&mut self, draws: &[Draw<'_>], groups: &Groups<'_>, resources: &[Arc<BoundResources>]) {
         let mut before: Option<&Draw<'_>> = None;
         let mut last = (0..0, None, None);
         for draw in draws {
@@ -89,17 +179,17 @@ impl DrawData {
                 before.is_some_and(|before| same(before, draw))
             };
             if !is_same(|a, b| same_slices(a.vertex_buffers, b.vertex_buffers)) {
-                let first = data.buffers.len();
-                data.buffers.extend(draw.vertex_buffers.iter().map(data_of));
-                last.0 = first..data.buffers.len();
+                let first = self.buffers.len();
+                self.buffers.extend(draw.vertex_buffers.iter().map(data_of));
+                last.0 = first..self.buffers.len();
             }
             if !is_same(|a, b| match (a.index_buffer, b.index_buffer) {
                 (Some((a, _)), Some((b, _))) => same_slice(a, b),
                 (a, b) => a.is_none() && b.is_none(),
             }) {
                 last.1 = draw.index_buffer.map(|(slice, _)| {
-                    data.buffers.push(data_of(slice));
-                    data.buffers.len() - 1
+                    self.buffers.push(data_of(slice));
+                    self.buffers.len() - 1
                 });
             }
             if !is_same(|a, b| a.immediates == b.immediates && same_groups(a, b)) {
@@ -109,42 +199,42 @@ impl DrawData {
                         let index = groups.index_of(group);
                         index.map_or_else(Arc::default, |index| Arc::clone(&resources[index]))
                     });
-                    data.bindings.push(Bindings {
+                    self.bindings.push(Bindings {
                         groups,
                         immediates: immediate_words(draw.immediates),
                         ..Bindings::default()
                     });
-                    data.bindings.len() - 1
+                    self.bindings.len() - 1
                 });
             }
-            data.of_draws.push(last.clone());
+            self.of_draws.push(last.clone());
             before = Some(draw);
         }
-        data
     }
 
-    pub(crate) fn draws<'a>(&'a self, draws: &[Draw<'a>]) -> Vec<estampe_core::Draw<'a>> {
-        let draws = draws.iter().zip(&self.of_draws);
-        let draws = draws.map(|(draw, (vertices, indices, bindings))| {
-            let format = draw.index_buffer.map(|(_, format)| format);
-            estampe_core::Draw {
-                pipeline: draw.pipeline,
-                vertex_buffers: &self.buffers[vertices.clone()],
-                indices: indices.map(|at| &self.buffers[at]).zip(format),
-                elements: draw.elements.clone(),
-                instances: draw.instances.clone(),
-                base_vertex: draw.base_vertex,
-                bindings: bindings.map(|at| &self.bindings[at]),
-                viewport: draw.viewport,
-                scissor: draw.scissor,
-                more_viewports: draw.more_viewports,
-                blend_constant: draw.blend_constant,
-                stencil_reference: draw.stencil_reference,
-                depth_bounds: draw.depth_bounds,
-                occlusion_query: draw.occlusion_query,
-            }
-        });
-        draws.collect()
+    /// A draw as the core sees it.
+    fn draw<'a>(
+        &'a self,
+        draw: &Draw<'a>,
+        (vertices, indices, bindings): &(Range<usize>, Option<usize>, Option<usize>),
+    ) -> estampe_core::Draw<'a> {
+        let format = draw.index_buffer.map(|(_, format)| format);
+        estampe_core::Draw {
+            pipeline: draw.pipeline,
+            vertex_buffers: &self.buffers[vertices.clone()],
+            indices: indices.map(|at| &self.buffers[at]).zip(format),
+            elements: draw.elements.clone(),
+            instances: draw.instances.clone(),
+            base_vertex: draw.base_vertex,
+            bindings: bindings.map(|at| &self.bindings[at]),
+            viewport: draw.viewport,
+            scissor: draw.scissor,
+            more_viewports: draw.more_viewports,
+            blend_constant: draw.blend_constant,
+            stencil_reference: draw.stencil_reference,
+            depth_bounds: draw.depth_bounds,
+            occlusion_query: draw.occlusion_query,
+        }
     }
 }
 

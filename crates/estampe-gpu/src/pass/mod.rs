@@ -12,6 +12,7 @@ mod run;
 
 pub(crate) use attachments::{Attachments, Use};
 pub use draw::Draw;
+pub(crate) use draw_data::DrawMemory;
 pub use error::{PassErrorKind, RenderPassError};
 pub use queries::{RangeQueries, RangeResult};
 pub(crate) use run::{check, core_pass, prepared, render};

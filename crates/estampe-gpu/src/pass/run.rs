@@ -2,16 +2,16 @@
 
 use super::attachments::Attachments;
 use super::check::{check_buffer_uses, check_draw, check_uses, check_vertices};
-use super::draw_data::{DrawData, Groups};
+use super::draw_data::{DrawData, DrawMemory, Groups, PART_DRAWS};
 use super::images::Taken;
 use super::layers::Layer;
 use super::queries::Parts;
-use super::{PassErrorKind, RenderPass, RenderPassError};
+use super::{Draw, PassErrorKind, RenderPass, RenderPassError};
 use crate::bind_group::BindingResource;
 use crate::buffer::StoredBuffers;
 use crate::texture::{StoredTextures, Texture, check_texture_conflicts};
-use crate::{Context, Device, Limits, LoadOp, Statistics};
-use estampe_core::{Discards, PassControl, RenderTarget};
+use crate::{Context, Device, LoadOp, Statistics};
+use estampe_core::{Discards, PassControl, RenderTarget, recycled};
 use estampe_types::shader::StoppedBatches;
 use std::sync::Arc;
 
@@ -24,15 +24,15 @@ pub(crate) fn render(
 }
 
 /// Checks all that [`render`] checks before it draws.
-pub(crate) fn check(limits: &Limits, pass: &RenderPass<'_>) -> Result<(), RenderPassError> {
+pub(crate) fn check(device: &Device, pass: &RenderPass<'_>) -> Result<(), RenderPassError> {
     let check = || {
         let layers = Layer::of(pass)?;
         let of_layers = passes(pass, &layers);
-        let (attachments, groups) = check_objects(limits, each_pass(pass, &of_layers))?;
+        let (attachments, groups) = check_objects(device, each_pass(pass, &of_layers))?;
         // The core's rules do not depend on what is bound.
         let resources = vec![Arc::default(); groups.distinct.len()];
-        let data = DrawData::new(pass.draws, &groups, &resources);
-        let draws = data.draws(pass.draws);
+        let data = DrawData::new(device.context(), pass.draws, &groups, &resources);
+        let draws = data.draws(device.context(), pass.draws);
         let core_pass = core_pass(pass, attachments[0].loads(), &draws);
         Ok(attachments[0].with_shape(|shape| core_pass.check(shape))?)
     };
@@ -65,16 +65,15 @@ fn each_pass<'s, 'a>(
 
 /// Checks the attachments of each layer, draws and bind groups.
 fn check_objects<'a>(
-    limits: &Limits,
+    device: &Device,
     passes: &'a [RenderPass<'_>],
 ) -> Result<(Vec<Attachments<'a>>, Groups<'a>), PassErrorKind> {
+    let limits = device.limits();
     let attachments = passes.iter().map(|pass| Attachments::check(pass, limits));
     let attachments = attachments.collect::<Result<Vec<_>, _>>()?;
     // All layers have the same draws, and attachments of the same formats.
     let pass = &passes[0];
-    for (number, draw) in pass.draws.iter().enumerate() {
-        check_draw(number, draw, &attachments[0], limits)?;
-    }
+    check_draws(device, pass.draws, &attachments[0])?;
     check_vertices(pass.draws, limits)?;
     if let Some(queries) = pass.range_queries {
         queries.check(pass.draws.len())?;
@@ -88,6 +87,27 @@ fn check_objects<'a>(
     check_buffer_uses(pass.draws, &groups.distinct)?;
     check_texture_conflicts(&groups.distinct)?;
     Ok((attachments, groups))
+}
+
+/// Checks the draws of a pass, on all threads.
+fn check_draws(
+    device: &Device,
+    draws: &[Draw<'_>],
+    attachments: &Attachments<'_>,
+) -> Result<(), PassErrorKind> {
+    let parts = draws.chunks(PART_DRAWS).enumerate();
+    let parts = parts.map(|(part, draws)| (part * PART_DRAWS, draws, Ok(())));
+    let mut parts: Vec<_> = parts.collect();
+    device
+        .context()
+        .for_each(&mut parts, |(first, draws, checked)| {
+            let mut draws = (*first..).zip(*draws);
+            *checked = draws.try_for_each(|(number, draw)| {
+                check_draw(number, draw, attachments, device.limits())
+            });
+        });
+    // The first draw that breaks a rule is the one that is named.
+    parts.into_iter().try_for_each(|(.., checked)| checked)
 }
 
 pub(crate) type Loads = (Vec<LoadOp<[f64; 4]>>, LoadOp<f32>, LoadOp<u8>);
@@ -112,15 +132,17 @@ fn run(device: &Device, pass: &RenderPass<'_>) -> Result<Statistics, PassErrorKi
     let (context, limits) = (device.context(), device.limits());
     let layers = Layer::of(pass)?;
     let of_layers = passes(pass, &layers);
-    let (attachments, groups) = check_objects(limits, each_pass(pass, &of_layers))?;
+    let (attachments, groups) = check_objects(device, each_pass(pass, &of_layers))?;
     let textures = reserved_order(&attachments, &groups);
     let reserved: Vec<_> = textures.iter().map(|texture| texture.reserve()).collect();
     let mut stores = StoredTextures::in_place();
     let buffers =
         StoredBuffers::in_place(&groups.distinct).map_err(PassErrorKind::StorageBuffer)?;
     let resources = groups.resources(context, (&mut stores, &buffers))?;
-    let data = DrawData::new(pass.draws, &groups, &resources);
-    let draws = data.draws(pass.draws);
+    let DrawMemory { mut data, draws } = device.take_draw_memory();
+    data.fill(context, pass.draws, &groups, &resources);
+    let mut draws = recycled(draws);
+    data.draws_into(context, pass.draws, &mut draws);
     let core_pass = estampe_core::RenderPass {
         discards: attachments[0].discards(),
         ..core_pass(pass, attachments[0].loads(), &draws)
@@ -147,9 +169,11 @@ fn run(device: &Device, pass: &RenderPass<'_>) -> Result<Statistics, PassErrorKi
         finished = finished.and(layer.finish(context, target, newest));
     }
     finished?;
-    drop(draws);
+    let draws = recycled(draws);
+    let mut memory = DrawMemory { data, draws };
+    memory.clear(context);
+    device.keep_draw_memory(memory);
     // Nobody else holds the words that were stored to from now on.
-    drop(data);
     drop(resources);
     stores.finish();
     drop(buffers);
@@ -211,13 +235,13 @@ pub(crate) fn prepared<T>(
 ) -> Result<T, PassErrorKind> {
     let layers = Layer::of(pass)?;
     let of_layers = passes(pass, &layers);
-    let (attachments, groups) = check_objects(device.limits(), each_pass(pass, &of_layers))?;
+    let (attachments, groups) = check_objects(device, each_pass(pass, &of_layers))?;
     let textures = reserved_order(&attachments, &groups);
     let reserved: Vec<_> = textures.iter().map(|texture| texture.reserve()).collect();
     let buffers = StoredBuffers::copies(&groups.distinct).map_err(PassErrorKind::StorageBuffer)?;
     let stores = (&mut StoredTextures::copies(), &buffers);
     let resources = groups.resources(device.context(), stores)?;
-    let data = DrawData::new(pass.draws, &groups, &resources);
+    let data = DrawData::new(device.context(), pass.draws, &groups, &resources);
     let used = use_data(&attachments, &data);
     drop(reserved);
     Ok(used)

@@ -1,7 +1,7 @@
 //! The texels of a texture: rows, tiles of the images that were rendered to, and which are newest.
 
 use super::blocks::Blocks;
-use super::{Texture, TextureError, TextureView};
+use super::{Texture, TextureError, TextureView, words};
 use estampe_core::{ColorTexels, Context, DepthStencilTexels, row_order_words};
 use estampe_texture::MipGeneration;
 use estampe_types::{Limits, ShadowMap, StorageTexture, TexelData, TextureFormat};
@@ -78,7 +78,7 @@ impl Contents {
         let rows = self.rows.as_mut().expect("the rows were made");
         if std::mem::take(&mut self.is_written) {
             let is_opaque = rows.stored_format() == TextureFormat::Rgba8Unorm
-                && rows.texels.iter().all(|texel| texel >> 24 == 255);
+                && words::are_opaque(context, &rows.texels);
             if is_opaque != rows.is_opaque {
                 Arc::make_mut(rows).is_opaque = is_opaque;
             }
@@ -119,10 +119,10 @@ impl Contents {
             None => create(view)?,
         };
         let from = &rows.texels[first..][..words.len()];
-        if !words.fill_from(from) {
+        if !words::fill(context, &mut words, from) {
             // A shader has kept a clone of the words for itself.
             words = create(view)?;
-            let is_filled = words.fill_from(from);
+            let is_filled = words::fill(context, &mut words, from);
             debug_assert!(is_filled, "it was just made");
         }
         let state = WordsState::AsRows;
@@ -152,7 +152,7 @@ impl Contents {
     }
 
     /// Brings the rows, which must have been made, up to date with the words.
-    fn update_rows_from_words(&mut self) {
+    fn update_rows_from_words(&mut self, context: &Context) {
         let stored = self.stored.iter_mut();
         let newest = stored.filter(|(_, stored)| stored.state == WordsState::Newest);
         for (&level, stored) in newest {
@@ -160,7 +160,7 @@ impl Contents {
             let first = words_of(data, ImageKey { level, layer: 0 }).start;
             let mut texels = std::mem::take(&mut data.texels);
             let rows = &mut Arc::make_mut(&mut texels)[first..][..stored.words.len()];
-            stored.words.copy_into(rows);
+            words::copy(context, &mut stored.words, rows);
             data.texels = texels;
             stored.state = WordsState::AsRows;
             self.is_written = true;
@@ -199,7 +199,7 @@ impl Contents {
                 .create(&[], MipGeneration::None, &limits)?;
             self.rows = Some(Arc::new(data));
         }
-        self.update_rows_from_words();
+        self.update_rows_from_words(context);
         let images = self.images.iter_mut();
         let mut newer = images
             .filter(|(_, (_, newest))| matches!(newest, Newest::Tiles | Newest::Discarded))

@@ -9,6 +9,7 @@ mod host_access;
 mod region;
 mod stores;
 mod view;
+mod words;
 
 pub(crate) use contents::{Contents, Image, ImageKey, Newest, words_of};
 pub(crate) use copy_texels::{check_copy, copy};

@@ -1,7 +1,7 @@
 //! Textures that the shaders of a pass store to, as atomic words.
 
 use super::contents::words_of;
-use super::{ImageKey, TextureError, TextureView};
+use super::{ImageKey, TextureError, TextureView, words};
 use crate::{BindGroup, BindingResource, BindingType, Context};
 use estampe_texture::is_storable;
 use estampe_types::{StorageTexture, ViewDimension};
@@ -49,7 +49,8 @@ impl StoredTextures {
             let rows = texture.lock().rows(texture, context)?;
             let level = view.mip_levels()[0];
             let first = words_of(&rows, ImageKey { level, layer: 0 }).start;
-            let is_filled = storage.fill_from(&rows.texels[first..][..storage.len()]);
+            let from = &rows.texels[first..][..storage.len()];
+            let is_filled = words::fill(context, &mut storage, from);
             debug_assert!(is_filled, "it was just made");
             storage
         } else {

@@ -119,41 +119,11 @@ impl StorageTexture {
         }
     }
 
-    /// Replaces all words at the rate of a copy; false if a clone of the texture lives, which is
-    /// not changed then.
-    ///
-    /// # Panics
-    /// If `words` has another number of words.
+    /// The words, unless a clone of the texture lives: they can be read and replaced at the rate of
+    /// a copy then.
     #[must_use]
-    pub fn fill_from(&mut self, words: &[u32]) -> bool {
-        assert_eq!(words.len(), self.len(), "the words of the whole texture");
-        let Some(own) = Arc::get_mut(&mut self.words) else {
-            return false;
-        };
-        for (to, word) in own.iter_mut().zip(words) {
-            *to.get_mut() = *word;
-        }
-        true
-    }
-
-    /// Copies all words: at the rate of a copy, unless a clone of the texture lives.
-    ///
-    /// # Panics
-    /// If `into` has another number of words.
-    pub fn copy_into(&mut self, into: &mut [u32]) {
-        assert_eq!(into.len(), self.len(), "the words of the whole texture");
-        match Arc::get_mut(&mut self.words) {
-            Some(own) => {
-                for (to, word) in into.iter_mut().zip(own) {
-                    *to = *word.get_mut();
-                }
-            }
-            None => {
-                for (to, word) in into.iter_mut().zip(&*self.words) {
-                    *to = word.load(Ordering::Relaxed);
-                }
-            }
-        }
+    pub fn own_words(&mut self) -> Option<&mut [AtomicU32]> {
+        Some(Arc::get_mut(&mut self.words)?.as_mut_slice())
     }
 
     /// Number of words.

@@ -25,7 +25,7 @@ pub(crate) fn inspect_stages(
     prepared(device, pass, |layers, data| {
         // Draws without a geometry shader go to the first layer.
         let attachments = &layers[0];
-        let draws = data.draws(pass.draws);
+        let draws = data.draws(device.context(), pass.draws);
         let core_pass = core_pass(pass, attachments.loads(), &draws);
         let checked = attachments.with_shape(|shape| core_pass.check(shape));
         checked.map_err(|error| refused(pass, error.into()))?;
