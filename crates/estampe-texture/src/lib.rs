@@ -80,6 +80,7 @@ mod mips;
 mod mixed;
 pub mod region;
 mod request;
+mod request_batch;
 mod rgba8_texture;
 mod storage;
 mod texel;
@@ -102,6 +103,7 @@ pub use estampe_types::{
 };
 pub use from_depth::texture_from_depth;
 pub use generate::{is_possible as can_generate, level as generate_level};
+pub use request_batch::PacketPlaces;
 pub use rgba8_texture::Rgba8Texture;
 pub use storage::{
     create_storage_texture, is_storable, storage_bytes, storage_load, storage_store,

@@ -181,7 +181,12 @@ impl Rgba8Texture {
 
     /// Samples a packet that is not the common case.
     #[inline(never)]
-    fn sample_rare_packet(&self, level: Level, request: &Request<'_>, colors: &mut Answers) {
+    pub(crate) fn sample_rare_packet(
+        &self,
+        level: Level,
+        request: &Request<'_>,
+        colors: &mut Answers,
+    ) {
         dispatch!(@wide level, s => {
             let zero: f32x16<_> = SimdBase::splat(s, 0.0);
             let (uv, lod, _) = self.place(request, zero, 0);
@@ -214,7 +219,12 @@ impl Rgba8Texture {
 
     /// The coordinates, their level of detail, and a guess of the finer level of the first lane.
     #[inline(always)]
-    fn place<R: Real>(&self, request: &Request<'_>, like: R, first: usize) -> (Vec2<R>, R, i32) {
+    pub(crate) fn place<R: Real>(
+        &self,
+        request: &Request<'_>,
+        like: R,
+        first: usize,
+    ) -> (Vec2<R>, R, i32) {
         let uv = request.uv(like, first);
         if let Some((lod, level)) = self.fixed_lod() {
             return (uv, like.splat(lod), level);
@@ -282,7 +292,7 @@ impl Rgba8Texture {
     }
 
     #[inline(never)]
-    fn sample_rare_alike(
+    pub(crate) fn sample_rare_alike(
         &self,
         textures: &[&Self],
         level: Level,
@@ -320,7 +330,7 @@ impl Rgba8Texture {
 
 /// Stores colours as packets.
 #[inline(always)]
-fn stored<R: Real>(color: Vec4<R>) -> Answers {
+pub(crate) fn stored<R: Real>(color: Vec4<R>) -> Answers {
     [
         packet(color.x, 0),
         packet(color.y, 0),
