@@ -36,6 +36,14 @@ pub enum Input {
         /// The direction in the window.
         axis: Axis,
     },
+    /// A component (0 to 3) of what a non-dependent texture read gives, by its number: a sample
+    /// whose operands are inputs, which is made before the kernel runs.
+    TextureRead {
+        /// The read.
+        read: u32,
+        /// The component.
+        component: u32,
+    },
     /// The index of the vertex.
     VertexIndex,
     /// The index of the instance.

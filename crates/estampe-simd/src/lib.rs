@@ -50,7 +50,7 @@ pub use fearless_simd::{
 #[cfg(target_arch = "x86_64")]
 #[doc(hidden)]
 pub use gather::SquareLoads;
-pub use gather::{bits_of, bits_of_mut, floats_of, floats_of_mut, ints_of};
+pub use gather::{bits_of, bits_of_mut, floats_of, floats_of_mut, ints_of, words_of};
 pub use index::{Lane, LanesOf, PacketIndex};
 pub use lanes::Lanes;
 pub use level::{Level, LevelError};

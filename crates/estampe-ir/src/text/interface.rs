@@ -29,6 +29,7 @@ pub(super) fn of_input(input: Input) -> String {
             Axis::X => called("derivative_x", &[scalar]),
             Axis::Y => called("derivative_y", &[scalar]),
         },
+        Input::TextureRead { read, component } => called("texture_read", &[read, component]),
         Input::VertexIndex => called("vertex_index", &[]),
         Input::InstanceIndex => called("instance_index", &[]),
         Input::Position(at) => called("position", &[at]),
@@ -59,6 +60,7 @@ pub(super) fn input(name: &str, numbers: &[u32]) -> Option<Input> {
             let axis = Axis::Y;
             Input::Derivative { scalar, axis }
         }
+        ("texture_read", &[read, component]) => Input::TextureRead { read, component },
         ("vertex_index", []) => Input::VertexIndex,
         ("instance_index", []) => Input::InstanceIndex,
         ("position", &[at]) => Input::Position(at),

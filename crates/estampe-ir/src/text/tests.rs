@@ -16,6 +16,7 @@ input workgroup_id(0)
 input cover
 input derivative_x(3)
 input derivative_y(4)
+input texture_read(1, 2)
 output color(0, 3)
 output second_color(1)
 output clip_distance(7)

@@ -1,9 +1,10 @@
 //! Batches of the pipeline as runs of a kernel.
 
+use super::nondependent::scalar_of;
 use super::stage::Stage;
 use estampe_ir::interface::{Input, Output};
 use estampe_ir::interpreter::{InputData, OutputData, cells};
-use estampe_ir::op::Axis;
+use estampe_simd::Packet;
 use estampe_types::{FragmentBatch, VertexBatch};
 use std::cell::Cell;
 
@@ -69,11 +70,11 @@ pub(super) fn with_vertices<T>(
 
 /// The places of a batch of fragments, of one packet each time if the sample index is read: it
 /// differs from packet to packet. `gradients` lists the scalars that have derivatives, in ascending
-/// order.
+/// order; `texels` are those of the stage's [reads](Stage::reads).
 pub(super) fn with_fragments<E>(
     stage: &Stage,
     (widths, gradients, immediates): (Widths, &[usize], &[u32]),
-    batch: FragmentBatch<'_>,
+    (batch, texels): (FragmentBatch<'_>, &[Packet<f32>]),
     mut run: impl FnMut(usize, &[InputData<'_>], &[OutputData<'_>]) -> Result<(), E>,
 ) -> Result<(), E> {
     let all = batch.coverage.len();
@@ -91,16 +92,15 @@ pub(super) fn with_fragments<E>(
             InputData::floats(packets, first * stride + part, stride)
         };
         let input = |input: &Input| match *input {
-            Input::Varying(scalar) => floats(batch.varyings, scalar as usize, scalars),
-            Input::Derivative { scalar, axis } => {
-                let first = match axis {
-                    Axis::X => widths.varyings,
-                    Axis::Y => widths.varyings + gradients.len(),
-                };
-                match gradients.binary_search(&(scalar as usize)) {
-                    Ok(at) => floats(batch.varyings, first + at, scalars),
-                    Err(_) => InputData::Uniform(0),
+            Input::Varying(_) | Input::Derivative { .. } => {
+                match scalar_of(*input, widths, gradients) {
+                    Some(scalar) => floats(batch.varyings, scalar, scalars),
+                    None => InputData::Uniform(0),
                 }
+            }
+            Input::TextureRead { read, component } => {
+                let (part, stride) = stage.reads().place(read, component, all);
+                floats(texels, part, stride)
             }
             Input::Position(part) => floats(batch.positions, part as usize, 4),
             Input::FrontFacing => {

@@ -11,6 +11,7 @@ mod facts;
 mod layouts;
 mod link;
 mod machine;
+mod nondependent;
 mod samples;
 mod stage;
 mod textures;
@@ -94,27 +95,40 @@ impl TextProgram {
             *next += count;
             Some(start)
         });
+        let widths = Widths {
+            attributes: interface.attribute_scalars(),
+            varyings: interface.varyings.len(),
+            colors: interface.colors(),
+            targets: interface.color_targets,
+            clip_distances: interface.distances(),
+        };
+        let gradients = &interface.gradients[..];
+        let fragment_stage = fragment
+            .as_ref()
+            .map(|source| Stage::of_fragments(&source.tree, budget, (widths, gradients)));
         Ok(Self {
             attributes: starts.collect(),
-            widths: Widths {
-                attributes: interface.attribute_scalars(),
-                varyings: interface.varyings.len(),
-                colors: interface.colors(),
-                targets: interface.color_targets,
-                clip_distances: interface.distances(),
-            },
+            widths,
             immediate_size: vertex.immediate_size.max(
                 fragment
                     .as_ref()
                     .map_or(0, |fragment| fragment.immediate_size),
             ),
             vertex: Stage::new(&vertex.tree, budget),
-            fragment: fragment.map(|fragment| Stage::new(&fragment.tree, budget)),
+            fragment: fragment_stage,
             layouts,
             interface,
             links,
             stopped: StoppedBatches::default(),
         })
+    }
+
+    /// The texture reads of the fragment shader that are made for a batch before it runs.
+    #[must_use]
+    pub fn nondependent_reads(&self) -> usize {
+        self.fragment
+            .as_ref()
+            .map_or(0, |stage| stage.reads().count())
     }
 
     /// The same without machine code: the interpreter runs it at every level.
@@ -188,13 +202,21 @@ impl Program for TextProgram {
         let (buffers, textures) = (stage.buffers(bindings), stage.textures(bindings));
         let gradients = &self.interface.gradients[..];
         let places = (self.widths, gradients, &bindings.immediates[..]);
-        let run = with_fragments(stage, places, batch, |packets, inputs, outputs| {
-            stage.run(
-                level,
-                (&textures, buffers.all()),
-                packets,
-                (inputs, outputs),
-            )
+        let scalars = (
+            batch.varyings,
+            self.interface.fragment_scalars(),
+            batch.coverage.len(),
+        );
+        let run = stage.reads().with_texels(&textures, scalars, |texels| {
+            let batch = (batch, texels);
+            with_fragments(stage, places, batch, |packets, inputs, outputs| {
+                stage.run(
+                    level,
+                    (&textures, buffers.all()),
+                    packets,
+                    (inputs, outputs),
+                )
+            })
         });
         if run.is_err() {
             self.stopped.stop();

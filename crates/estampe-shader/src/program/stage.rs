@@ -1,7 +1,9 @@
 //! A stage of a program: its kernel, as machine code or as bytecode.
 
+use super::batch::Widths;
 use super::buffers::BoundBuffers;
 use super::machine::MachineCode;
+use super::nondependent::Reads;
 use super::textures::BoundTextures;
 use estampe_ir::interface::Interface;
 use estampe_ir::interpreter::{Buffer, Code, InputData, OutputData, Run, Scratch, Stopped};
@@ -21,6 +23,8 @@ thread_local! {
 #[derive(Debug)]
 pub(super) struct Stage {
     kernel: Kernel,
+    /// The texture reads that are made before the kernel runs.
+    reads: Reads,
     machine: MachineCode,
     /// What runs where there is no machine code.
     bytecode: OnceLock<Code>,
@@ -34,11 +38,32 @@ impl Stage {
     pub(super) fn new(tree: &Tree, budget: u64) -> Self {
         Self {
             kernel: Kernel::from_tree(tree),
+            reads: Reads::default(),
             machine: MachineCode::default(),
             bytecode: OnceLock::new(),
             is_interpreted: false,
             budget,
         }
+    }
+
+    /// A fragment stage, whose non-dependent texture reads are made before its kernel runs.
+    /// `gradients` lists the scalars of the varyings that have derivatives, in ascending order.
+    pub(super) fn of_fragments(
+        tree: &Tree,
+        budget: u64,
+        (widths, gradients): (Widths, &[usize]),
+    ) -> Self {
+        let mut tree = tree.clone();
+        let reads = Reads::take(&mut tree, widths, gradients);
+        Self {
+            reads,
+            ..Self::new(&tree, budget)
+        }
+    }
+
+    /// The texture reads that are made before the kernel runs.
+    pub(super) fn reads(&self) -> &Reads {
+        &self.reads
     }
 
     /// Runs by bytecode from now on.

@@ -81,7 +81,7 @@ impl<'a> BoundTextures<'a> {
         *found
     }
 
-    fn sampled(&self, texture: u32, sampler: u32) -> Option<&'a SampledTexture> {
+    pub(super) fn sampled(&self, texture: u32, sampler: u32) -> Option<&'a SampledTexture> {
         let at = texture as usize * self.samplers.len() + sampler as usize;
         let made = self.sampled.get(at)?.get_or_init(|| {
             let slot = |slots: &[TextureSlot], at: u32| {

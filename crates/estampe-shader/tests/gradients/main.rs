@@ -1,6 +1,7 @@
 //! Textures that are sampled at varyings: where their level of detail comes from.
 
 mod linking;
+mod nondependent;
 mod rewriting;
 mod running;
 

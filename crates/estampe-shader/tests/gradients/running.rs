@@ -25,7 +25,7 @@ const COVER: [u16; PACKETS] = {
 
 /// The view of each binding number of the shader, and its two samplers.
 #[derive(Debug)]
-struct Textures {
+pub(super) struct Textures {
     views: Vec<(u32, TexelView)>,
     sampler: SamplerDescriptor,
     compared: SamplerDescriptor,
@@ -72,7 +72,7 @@ fn depths(random: &mut fastrand::Rng) -> TexelView {
 }
 
 impl Textures {
-    fn new(sampler: SamplerDescriptor) -> Self {
+    pub(super) fn new(sampler: SamplerDescriptor) -> Self {
         use TextureDimension as T;
         use ViewDimension as V;
         let random = &mut fastrand::Rng::with_seed(7);
@@ -97,7 +97,7 @@ impl Textures {
         }
     }
 
-    fn bindings(&self, level: Level) -> Bindings {
+    pub(super) fn bindings(&self, level: Level) -> Bindings {
         let bound = |(binding, view): &(u32, TexelView)| {
             let texture = Arc::new(BoundTexture::new(view.clone(), None, level));
             (*binding, BoundResource::Other(OtherResource(texture)))
@@ -235,7 +235,7 @@ fn check(
     }
 }
 
-fn samplers() -> [SamplerDescriptor; 3] {
+pub(super) fn samplers() -> [SamplerDescriptor; 3] {
     let linear = SamplerDescriptor::trilinear_repeat();
     let nearest = SamplerDescriptor {
         mipmap_filter: FilterMode::Nearest,
@@ -257,6 +257,20 @@ fn planes() {
             |textures, fragment| {
                 let at = Coordinates::d2(fragment.uv());
                 textures.sample(1, at, fragment.gradients(0, 2))
+            },
+        );
+    }
+}
+
+#[test]
+fn base_levels() {
+    for sampler in samplers() {
+        check(
+            "return textureSampleLevel(map, s, in.uv, 0.0);",
+            sampler,
+            |textures, fragment| {
+                let at = Coordinates::d2(fragment.uv());
+                textures.texture(1).sample_level(at, 0.0)
             },
         );
     }

@@ -58,6 +58,15 @@ pub fn floats_of(words: &[Packet<u32>]) -> &[Packet<f32>] {
     unsafe { std::slice::from_raw_parts(words.as_ptr().cast(), words.len()) }
 }
 
+/// Packets of floats as packets of their bits.
+#[inline(always)]
+#[must_use]
+#[expect(unsafe_code, reason = "safe transmutation is not stable")]
+pub fn words_of(floats: &[Packet<f32>]) -> &[Packet<u32>] {
+    // SAFETY: as in `floats_of`, the other way round.
+    unsafe { std::slice::from_raw_parts(floats.as_ptr().cast(), floats.len()) }
+}
+
 /// Packets of words as packets of the signed integers that have these bits.
 #[inline(always)]
 #[must_use]
