@@ -49,6 +49,10 @@ pub struct Statistics {
     /// began. They depend on the SIMD level.
     #[doc(hidden)]
     pub fragments_listed_in_order: [u64; 2],
+    /// Fragments of lines that became visible among the triangles of a run, to be stored when it
+    /// ends. They depend on the SIMD level.
+    #[doc(hidden)]
+    pub line_fragments_shown: u64,
     /// Rectangles of two triangles that were drawn in order as one box, once for each tile. They
     /// depend on the SIMD level.
     #[doc(hidden)]
@@ -112,6 +116,7 @@ impl std::ops::AddAssign for Statistics {
         self.primitives_binned += other.primitives_binned;
         self.fragments_shaded += other.fragments_shaded;
         self.fragments_of_shared_colors += other.fragments_of_shared_colors;
+        self.line_fragments_shown += other.line_fragments_shown;
         for (counts, others) in [
             (
                 &mut self.fragments_across_triangles,

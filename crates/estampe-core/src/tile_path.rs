@@ -7,7 +7,9 @@
 //!   in order     primitive by primitive, in the order of submission. Everything else.
 //! ```
 //!
-//! Either serves every format, test and target. The variants tell how fragments fill packets.
+//! Opaque lines are drawn in order, but may join a run of visibility: where they pass, its
+//! triangles are not shaded. Either path serves every format, test and target. The variants tell
+//! how fragments fill packets.
 
 use crate::pipeline::{RenderPipeline, StageKey};
 use estampe_simd::Level;

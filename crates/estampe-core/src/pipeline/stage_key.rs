@@ -22,6 +22,8 @@ pub(crate) struct StageKey {
     pub(crate) tests_early: bool,
     /// A sample's colour is that of the last filled triangle that passes its tests there.
     pub(crate) is_opaque: bool,
+    /// The same of lines, whose fragments may be shaded apart from each other as soon as they pass.
+    pub(crate) is_opaque_lines: bool,
     /// Fragments have colours that are stored: a target's write mask is not empty.
     pub(crate) has_colors: bool,
     /// The fragments' colour depends on the primitive alone, so it is shaded once for each.
@@ -78,8 +80,11 @@ impl StageKey {
             && !alpha_to_coverage
             && !interface.writes_sample_mask;
         let primitive = &descriptor.primitive;
-        let fills_triangles = kind_of(primitive.topology) == PrimitiveKind::Triangles
-            && primitive.polygon_mode == PolygonMode::Fill;
+        let kind = kind_of(primitive.topology);
+        let fills_triangles =
+            kind == PrimitiveKind::Triangles && primitive.polygon_mode == PolygonMode::Fill;
+        let draws_lines = kind == PrimitiveKind::Lines
+            || kind == PrimitiveKind::Triangles && primitive.polygon_mode == PolygonMode::Line;
         let keeps_coverage = interface.reads_coverage || has_centroids;
         let is_shaded_by_pixel = !per_sample && !interface.per_sample && !keeps_coverage;
         // Packets that several triangles share would be shaded in an order that depends on the SIMD
@@ -102,12 +107,15 @@ impl StageKey {
             .varyings
             .iter()
             .all(|mode| *mode == Interpolation::Flat);
-        let is_plain = fills_triangles
-            && shares_packets
+        let replaces_samples = shares_packets
             && tests_early
             && sample_mask.is_none()
             && !interface.dual_source
             && primitive.conservative == ConservativeMode::Disabled;
+        let is_plain = fills_triangles && replaces_samples;
+        let replaces_colors = targets.iter().all(ColorTarget::replaces);
+        let fragments_are_independent =
+            interface.no_derivatives && !interface.reads_position && interface.color_targets == 1;
         let depth_stencil = descriptor.depth_stencil;
         let has_colors = targets.iter().any(ColorTarget::is_written);
         Self {
@@ -118,7 +126,13 @@ impl StageKey {
                 .and_then(|state| state.stencil)
                 .filter(|state| !does_nothing(state)),
             tests_early,
-            is_opaque: is_plain && (!has_colors || targets.iter().all(ColorTarget::replaces)),
+            is_opaque: is_plain && (!has_colors || replaces_colors),
+            is_opaque_lines: draws_lines
+                && replaces_samples
+                && primitive.line.stipple.is_none()
+                && fragments_are_independent
+                && targets.len() == 1
+                && replaces_colors,
             has_colors,
             uniform_over_primitive: flat && !interface.reads_position,
             uniform_over_draw: interface.varyings.is_empty() && !interface.reads_position,
@@ -126,9 +140,7 @@ impl StageKey {
                 && is_shaded_by_pixel
                 && !interface.reads_position,
             needs_no_quads: interface.no_derivatives,
-            fragments_are_independent: interface.no_derivatives
-                && !interface.reads_position
-                && interface.color_targets == 1,
+            fragments_are_independent,
             color_passthrough,
             blends_blocks: is_plain
                 && color_passthrough

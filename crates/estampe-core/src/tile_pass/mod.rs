@@ -3,7 +3,8 @@
 //! A worker owns the tile's slices of the attachments, clears them if the pass says so, and
 //! consumes the chunks in submission order, so an image does not depend on which worker draws which
 //! tile. A sub-draw's [path](TilePath) says how: opaque triangles go to the [visibility] path,
-//! which runs on over draws; everything else is drawn [in order](in_order).
+//! which runs on over draws; everything else is drawn [in order](in_order). Opaque lines over such
+//! triangles are covered and tested there, too, and then join the run of visibility.
 
 mod clear;
 mod fragments;
@@ -30,6 +31,7 @@ use crate::statistics::Statistics;
 use crate::tile_path::TilePath;
 use estampe_simd::{LANES, Level};
 use estampe_types::TextureFormat;
+use in_order::FragmentsTo;
 use next_tile::NextTile;
 use worker_tile::WorkerTile;
 
@@ -149,9 +151,15 @@ fn draw_into<const N: usize>(
                 in_order::finish(pass, job, scratch);
                 visibility::add(pass, (&work, entries), job, scratch);
             } else {
-                visibility::resolve(pass, job, scratch);
-                clear_colors(pass, job, scratch);
-                in_order::draw(pass, (&work, entries), (job, &mut ahead), scratch);
+                let to = if visibility::takes_lines(pass, &work, job, scratch) {
+                    FragmentsTo::Visibility
+                } else {
+                    visibility::resolve(pass, job, scratch);
+                    clear_colors(pass, job, scratch);
+                    FragmentsTo::Attachments
+                };
+                let job = (&mut *job, &mut ahead);
+                in_order::draw(pass, (&work, entries), to, job, scratch);
             }
         }
     }

@@ -9,7 +9,7 @@ use estampe_tests::{Case, CaseDraw, ExpectedPaths, Random, TestShader, check_pat
 use estampe_types::TextureFormat;
 use estampe_types::state::{
     BlendState, CompareFunction, DepthState, LineRasterization, LineState, PolygonMode,
-    PrimitiveTopology,
+    PrimitiveTopology, ScissorRect,
 };
 
 /// The target's size: two tiles and parts of two others.
@@ -189,4 +189,69 @@ fn lines_keep_their_order_among_others() {
         case
     });
     assert!(statistics.fragments_listed_in_order[0] > 0);
+}
+
+/// Opaque lines over opaque triangles, short and long, so that they join the run of visibility;
+/// with every comparison, with and without writing depth, queries, formats of one word and of
+/// several, and draws of other kinds between.
+///
+/// Rows: R3, R6, O3, O4, O7, U3.
+#[test]
+fn lines_among_visible_triangles() {
+    use TextureFormat as F;
+    let paths = ExpectedPaths(&[TilePath::InOrderQuads, TilePath::VisibilityQuads]);
+    let statistics = check_paths("small_lines/visibility", 60, paths, |random| {
+        let mut case = Case::new(SIZE, random.pick(&[1, 1, 1, 4]));
+        case.clear_depth = random.pick(&[1.0, 0.5]);
+        case.clear_color = random.four(0.0, 1.0);
+        let formats = [F::Rgba8Unorm, F::Bgra8UnormSrgb, F::Rgba16Float, F::R8Unorm];
+        case.format = Some(random.pick(&formats));
+        for turn in 0..2 + random.below(5) {
+            let is_line = turn % 2 == 1;
+            let vertices = if is_line {
+                ends(random, 300)
+            } else {
+                let style = random.pick(&[Style::Small, Style::Large, Style::OnGrid]);
+                let count = random.pick(&[3, 40]);
+                triangles(random, style, SIZE, count)
+            };
+            let mut draw = CaseDraw::new(shader(random), &vertices);
+            if is_line {
+                draw.primitive.topology =
+                    random.pick(&[PrimitiveTopology::LineList, PrimitiveTopology::LineStrip]);
+                draw.primitive.line = line_state(random);
+            } else if random.once_in(6) {
+                draw.primitive.polygon_mode = PolygonMode::Line;
+            }
+            draw.depth = random
+                .pick(&[
+                    None,
+                    Some(CompareFunction::Less),
+                    Some(CompareFunction::LessEqual),
+                    Some(CompareFunction::LessEqual),
+                    Some(CompareFunction::GreaterEqual),
+                    Some(CompareFunction::NotEqual),
+                ])
+                .map(|compare| DepthState {
+                    compare,
+                    write_enabled: random.once_in(2),
+                });
+            draw.is_counted = random.once_in(6);
+            if random.once_in(8) {
+                draw.blend = Some(BlendState::ALPHA_BLENDING);
+            }
+            if random.once_in(4) {
+                draw.scissor = Some(ScissorRect {
+                    x: random.below(60),
+                    y: random.below(40),
+                    width: 40,
+                    height: 30,
+                });
+            }
+            case.draws.push(draw);
+        }
+        case
+    });
+    let shown = statistics.line_fragments_shown;
+    assert!(shown > 10_000, "{shown} fragments of lines were shown");
 }

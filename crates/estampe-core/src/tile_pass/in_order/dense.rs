@@ -25,7 +25,7 @@ impl<const N: usize> InOrder<'_, '_, '_, '_, N> {
         for at in 0..self.scratch.in_order.list.items().len() {
             let covered = self.scratch.in_order.list.items()[at];
             let any = covered.any();
-            if any == u16::MAX {
+            if any == u16::MAX && !self.is_shown() {
                 let packet = PrimitivePacket {
                     alive: covered,
                     covered: covered.masks,
@@ -57,6 +57,7 @@ impl<const N: usize> InOrder<'_, '_, '_, '_, N> {
         front: bool,
     ) {
         let tile = [self.work.shape.x, self.work.shape.y];
+        let is_shown = self.is_shown();
         self.scratch.in_order.fragments.end();
         let count = self.scratch.in_order.fragments.len();
         let mut next = 0;
@@ -76,7 +77,11 @@ impl<const N: usize> InOrder<'_, '_, '_, '_, N> {
             let [_, places, samples] = fragments.sixteen(next, used);
             let end = LANES.min(used + count - next);
             let wanted = lanes_between(used, end);
-            let first_again = last_packet.add(places, wanted);
+            // Which fragment a pixel shows is found before they are shaded.
+            let first_again = match is_shown {
+                true => LANES,
+                false => last_packet.add(places, wanted),
+            };
             let end = end.min(first_again);
             if end <= used {
                 self.scratch.queue.close_pixels();
@@ -93,6 +98,11 @@ impl<const N: usize> InOrder<'_, '_, '_, '_, N> {
             queue.push_pixels_of(s, interpolant, (&packet, lanes), pixels);
             if first_again < LANES {
                 queue.close_pixels();
+            }
+            if is_shown {
+                let (plan, places) = (self.work.plan, *places);
+                let shown = (&places, lanes);
+                self.scratch.show_pixels(plan, self.job, shown, used == 0);
             }
             next += end - used;
         }

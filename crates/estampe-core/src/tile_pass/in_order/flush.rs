@@ -10,6 +10,9 @@ impl<const N: usize> InOrder<'_, '_, '_, '_, N> {
         if self.scratch.queue.is_empty() {
             return;
         }
+        if self.is_shown() {
+            return self.scratch.shade_shown(self.work.plan, self.work.level);
+        }
         // They were drawn before anything was queued.
         self.blend_layers();
         let (plan, level) = (self.work.plan, self.work.level);

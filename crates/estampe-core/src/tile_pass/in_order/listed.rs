@@ -170,6 +170,7 @@ impl<const N: usize> InOrder<'_, '_, '_, '_, N> {
     #[inline(always)]
     fn queue_pixels<S: Lanes, V: ListedValues>(&mut self, s: S, from: usize, tests: bool) -> usize {
         let plan = self.work.plan;
+        let is_shown = self.is_shown();
         let (offsets, samples) = (self.samples.offsets(), self.samples.count());
         let depths_at = self.depths_at::<V>();
         let InOrderScratch {
@@ -185,7 +186,7 @@ impl<const N: usize> InOrder<'_, '_, '_, '_, N> {
         } else {
             self.scratch.queue.open_pixels()
         };
-        if used == 0 {
+        if used == 0 || is_shown {
             last_packet.begin();
         }
         let [pixels, places, of_samples] = fragments.sixteen(from, used);
@@ -199,7 +200,12 @@ impl<const N: usize> InOrder<'_, '_, '_, '_, N> {
             }
         }
         let alive = masks.iter().fold(0, |any, mask| any | mask);
-        let mut end = last_packet.add(&places, alive).min(wanted);
+        // Which fragment a pixel shows is found before they are shaded: only those that are tested
+        // together must be of different pixels.
+        let mut end = match is_shown && !tests {
+            true => wanted,
+            false => last_packet.add(&places, alive).min(wanted),
+        };
         if quads {
             end -= end % QUAD;
         }
@@ -249,6 +255,10 @@ impl<const N: usize> InOrder<'_, '_, '_, '_, N> {
         if used == 0 && self.scratch.queue.is_full() {
             self.flush();
         }
+        if is_shown {
+            let shown = (&places, packet.masks[0]);
+            self.scratch.show_pixels(plan, self.job, shown, used == 0);
+        }
         let inputs = self.scratch.queue.push_pixels(&packet, lanes);
         let small = &*self.scratch.in_order.small;
         let center = moved(first, offsets[0], [0.5; 2]);
@@ -270,7 +280,7 @@ impl<const N: usize> InOrder<'_, '_, '_, '_, N> {
             let depth = V::depth(small, s, pixels.lane(), distances);
             replace(s, to, set, clamp_depth(s, depth, inputs.depth_range));
         }
-        if quads || end < wanted {
+        if quads || end < wanted && !is_shown {
             // Quads, or a pixel that comes again, begin a packet.
             self.scratch.queue.close_pixels();
         }

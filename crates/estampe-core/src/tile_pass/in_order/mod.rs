@@ -107,6 +107,7 @@ impl<const N: usize> Default for InOrderScratch<N> {
 pub(super) fn draw<const N: usize>(
     pass: &TilePass<'_>,
     (work, entries): (&TileWork<'_>, &[BinEntry]),
+    to: FragmentsTo,
     (job, ahead): (&mut TileJob<'_>, &mut Ahead<'_>),
     scratch: &mut TileScratch<N>,
 ) {
@@ -117,6 +118,7 @@ pub(super) fn draw<const N: usize>(
     planes.resize(VaryingPlanes::size(scalars), 0.0);
     let is_scalar = work.level.is_scalar();
     let mut drawing = InOrder::new(work, entries.first().copied(), job, scratch);
+    drawing.to = to;
     // The scalar level draws triangles from their packets.
     drawing.ahead = (!is_scalar).then_some(ahead);
     drawing.planes = planes;
@@ -158,7 +160,7 @@ pub(super) fn draw<const N: usize>(
     drawing.draw_lines(&mut lines);
     drawing.end_solid();
     drawing.blend_layers();
-    if plan.query.is_some() {
+    if plan.query.is_some() || to == FragmentsTo::Visibility {
         drawing.flush();
     }
     let (passed, planes) = (drawing.passed, std::mem::take(&mut drawing.planes));
@@ -219,9 +221,19 @@ fn gathers(plan: &TilePlan<'_>) -> bool {
         && plan.path != TilePath::InOrderBlocks
 }
 
+/// Where the fragments of a run go.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum FragmentsTo {
+    /// To the attachments, in order.
+    Attachments,
+    /// To the run of visibility: those of opaque lines that pass their tests.
+    Visibility,
+}
+
 /// A run being drawn into a tile.
 struct InOrder<'a, 'j, 't, 'p, const N: usize> {
     work: &'a TileWork<'a>,
+    to: FragmentsTo,
     samples: SampleSet<N>,
     source: VaryingSource<'a>,
     conservative: ConservativeMode,
@@ -265,6 +277,7 @@ impl<'a, 'j, 't, const N: usize> InOrder<'a, 'j, 't, '_, N> {
         let key = plan.pipeline.key();
         Self {
             work,
+            to: FragmentsTo::Attachments,
             samples: SampleSet::new(work.samples),
             source: work.varyings(),
             conservative: plan.pipeline.descriptor().primitive.conservative,
@@ -292,6 +305,13 @@ impl<'a, 'j, 't, const N: usize> InOrder<'a, 'j, 't, '_, N> {
 }
 
 impl<'a, const N: usize> InOrder<'a, '_, '_, '_, N> {
+    /// True if fragments go to the run of visibility.
+    #[inline(always)]
+    fn is_shown(&self) -> bool {
+        // Its fragments have one sample.
+        N == 1 && self.to == FragmentsTo::Visibility
+    }
+
     /// Draws a triangle alone.
     #[inline(always)]
     fn triangle<S: Lanes>(&mut self, s: S, triangle: &Triangle) {

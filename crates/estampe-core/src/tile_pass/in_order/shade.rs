@@ -52,7 +52,7 @@ impl<const N: usize> InOrder<'_, '_, '_, '_, N> {
         self.end_solid();
         if const { S::IS_SCALAR } || !self.shares_packets {
             self.queue_line_packets(interpolant, front);
-        } else if self.listing == Listing::Pixels && self.lists_lines() {
+        } else if self.is_shown() || self.listing == Listing::Pixels && self.lists_lines() {
             // Quads would be drawn after pixels of later lines, which fill the open packet.
             self.queue_line_pixels(interpolant, front);
         } else {

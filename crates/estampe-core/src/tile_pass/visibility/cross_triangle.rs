@@ -9,10 +9,12 @@ use super::rasterize::Rasterizer;
 use super::small::Numbering;
 use crate::bounds::primitives::TrianglePacket;
 use crate::fragment::cross_triangle::{CrossFragments, CrossPlanes, bits_of_row};
+use crate::fragment::queue::FragmentQueue;
 use crate::per_sample::color_writer::ColorWriter;
+use crate::plan::tile_plan::TilePlan;
 use crate::raster::pixel_list::lane_of;
 use crate::tile_pass::{TileScratch, TileWork};
-use estampe_simd::{LANES, Lanes};
+use estampe_simd::{LANES, Lanes, Level};
 
 /// Memory of fragments that are shaded before the run is resolved.
 #[derive(Debug, Default)]
@@ -84,6 +86,38 @@ impl CrossTriangleScratch {
         self.fragments.end(end, lanes);
     }
 
+    /// Begins a packet of fragments that are numbered by their lanes.
+    #[inline(always)]
+    pub(super) fn begin_packet(&mut self) {
+        debug_assert_eq!(self.open, 0, "a packet of triangles is filled first");
+        self.packets += 1;
+    }
+
+    /// The id of the first lane of the packet that was begun last.
+    #[inline(always)]
+    pub(super) fn first_id_of_last(&self) -> u32 {
+        SHADED | (self.packets.wrapping_sub(1) * 16)
+    }
+
+    /// Shades the queued packets and keeps their texels. Returns how many fragments that were.
+    pub(super) fn shade<const N: usize>(
+        &mut self,
+        queue: &mut FragmentQueue<N>,
+        plan: &TilePlan<'_>,
+        level: Level,
+    ) -> u64 {
+        let fragments = queue.shade(level, plan.pipeline, plan.bindings);
+        let target = &plan.pipeline.color_targets()[0];
+        let writer = ColorWriter {
+            target,
+            index: target.output,
+            constant: plan.blend_constant,
+        };
+        writer.encode_batch(level, &queue.batch(), &mut self.texels);
+        queue.clear();
+        fragments
+    }
+
     /// Returns the approximate number of texels that wait for the resolve.
     pub(super) fn texels(&self) -> usize {
         self.texels.len() * LANES
@@ -151,19 +185,11 @@ impl<const N: usize> Rasterizer<'_, '_, '_, N> {
         }
         let TileWork { level, plan, .. } = *self.work;
         visibility.cross.open = 0;
-        let fragments = queue.shade(level, plan.pipeline, plan.bindings);
+        let queued = queue.queued().count() as u64;
+        let fragments = visibility.cross.shade(queue, plan, level);
         statistics.fragments_shaded += fragments;
-        let texels = &mut visibility.cross.texels;
-        let target = &plan.pipeline.color_targets()[0];
-        let writer = ColorWriter {
-            target,
-            index: target.output,
-            constant: plan.blend_constant,
-        };
-        writer.encode_batch(level, &queue.batch(), texels);
         let [all, packets] = &mut statistics.fragments_across_triangles;
         *all += fragments;
-        *packets += queue.batch().packets().count() as u64;
-        queue.clear();
+        *packets += queued;
     }
 }

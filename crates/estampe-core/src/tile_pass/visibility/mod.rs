@@ -27,6 +27,7 @@ mod buffer;
 mod counting;
 mod cross_triangle;
 mod gathered;
+mod lines;
 mod parts;
 mod quads;
 mod rasterize;
@@ -46,6 +47,7 @@ use buffer::VisibilityBuffer;
 use cross_triangle::CrossTriangleScratch;
 use resolve::ResolveScratch;
 
+pub(super) use lines::takes_lines;
 pub(super) use resolve::resolve;
 
 /// Triangles of a run in one tile, at most (a chunk's more): their planes should stay in the cache.
