@@ -180,6 +180,24 @@ mod x86 {
     }
 
     #[inline(always)]
+    pub(crate) fn columns_and_three_rows_avx512(
+        simd: Avx512,
+        columns: f32x16<Avx512>,
+        [a, b, c]: [f32x16<Avx512>; 3],
+    ) -> f32x16<Avx512> {
+        fearless_simd::kernel!(
+            #[inline(always)]
+            fn combine(simd: Avx512, low: f32x16<Avx512>, high: f32x16<Avx512>) -> f32x16<Avx512> {
+                use core::arch::x86_64::*;
+                _mm512_mask_blend_ps(0xFF00, low.into(), high.into()).simd_into(simd)
+            }
+        );
+        let order = [0, 2, 8, 10, 16, 18, 24, 26, 0, 2, 8, 10, 16, 18, 24, 26];
+        let high = choose_512(simd, b, order_512(simd, order), c);
+        combine(simd, columns_and_rows_avx512(simd, columns, a), high)
+    }
+
+    #[inline(always)]
     pub(crate) fn places_avx512(simd: Avx512, texel: u32x16<Avx512>) -> u32x16<Avx512> {
         fearless_simd::kernel!(
             #[inline(always)]
@@ -291,32 +309,56 @@ mod x86 {
         first.combine(second)
     }
 
+    fearless_simd::kernel!(
+        /// Lanes 0, 1, 4 and 5 of columns; then 0 and 2 of both halves of rows.
+        #[inline(always)]
+        fn columns_and_row_256(
+            simd: Avx2,
+            columns: f32x8<Avx2>,
+            upper: f32x8<Avx2>,
+            lower: f32x8<Avx2>,
+        ) -> f32x8<Avx2> {
+            use core::arch::x86_64::*;
+            let columns = _mm256_permute4x64_pd::<0b00_00_10_00>(_mm256_castps_pd(columns.into()));
+            let columns = _mm256_castpd_ps(columns);
+            let rows = _mm256_shuffle_ps::<0b10_00_10_00>(upper.into(), lower.into());
+            _mm256_permute2f128_ps::<0x20>(columns, rows).simd_into(simd)
+        }
+    );
+
     #[inline(always)]
     pub(crate) fn columns_and_rows_avx2(
         simd: Avx2,
         columns: f32x16<Avx2>,
         rows: f32x16<Avx2>,
     ) -> f32x16<Avx2> {
+        let ((columns, _), (upper, lower)) = (columns.split(), rows.split());
+        let both = columns_and_row_256(simd, columns, upper, lower);
+        both.combine(both)
+    }
+
+    #[inline(always)]
+    pub(crate) fn columns_and_three_rows_avx2(
+        simd: Avx2,
+        columns: f32x16<Avx2>,
+        [a, b, c]: [f32x16<Avx2>; 3],
+    ) -> f32x16<Avx2> {
         fearless_simd::kernel!(
             #[inline(always)]
-            fn kernel(
+            fn two_rows(
                 simd: Avx2,
-                columns: f32x8<Avx2>,
-                upper: f32x8<Avx2>,
-                lower: f32x8<Avx2>,
+                first: [f32x8<Avx2>; 2],
+                second: [f32x8<Avx2>; 2],
             ) -> f32x8<Avx2> {
                 use core::arch::x86_64::*;
-                // Lanes 0, 1, 4 and 5; then 0 and 2 of both halves of the rows.
-                let columns =
-                    _mm256_permute4x64_pd::<0b00_00_10_00>(_mm256_castps_pd(columns.into()));
-                let columns = _mm256_castpd_ps(columns);
-                let rows = _mm256_shuffle_ps::<0b10_00_10_00>(upper.into(), lower.into());
-                _mm256_permute2f128_ps::<0x20>(columns, rows).simd_into(simd)
+                let first = _mm256_shuffle_ps::<0b10_00_10_00>(first[0].into(), first[1].into());
+                let second = _mm256_shuffle_ps::<0b10_00_10_00>(second[0].into(), second[1].into());
+                _mm256_permute2f128_ps::<0x20>(first, second).simd_into(simd)
             }
         );
-        let ((columns, _), (upper, lower)) = (columns.split(), rows.split());
-        let both = kernel(simd, columns, upper, lower);
-        both.combine(both)
+        let ((columns, _), a, b, c) = (columns.split(), a.split(), b.split(), c.split());
+        let low = columns_and_row_256(simd, columns, a.0, a.1);
+        low.combine(two_rows(simd, [b.0, b.1], [c.0, c.1]))
     }
 
     fearless_simd::kernel!(

@@ -456,7 +456,7 @@ fn a_packet_is_uniform_if_no_lane_differs() {
 
 /// Four rows of four texels, by channel and lane.
 #[inline(always)]
-fn of_block<S: Lanes>(s: S, rows: &[[f32; LANES]; 4]) -> [[f32; LANES]; 12] {
+fn of_block<S: Lanes>(s: S, rows: &[[f32; LANES]; 4]) -> [[f32; LANES]; 13] {
     let [a, b, c, d] = [
         f32x16::load_array_ref(s, &rows[0]),
         f32x16::load_array_ref(s, &rows[1]),
@@ -478,6 +478,7 @@ fn of_block<S: Lanes>(s: S, rows: &[[f32; LANES]; 4]) -> [[f32; LANES]; 12] {
         s.first_column(a).to_array(),
         s.spread_columns(a).to_array(),
         s.columns_and_rows(a, b).to_array(),
+        s.columns_and_three_rows(a, [b, c, d]).to_array(),
     ]
 }
 
@@ -492,7 +493,7 @@ fn blocks_have_columns_rows_and_channels() {
     };
     for level in Level::all_available() {
         let of_level = dispatch!(level, s => of_block(s, &rows));
-        let [a, b, c, d, channels @ .., row, column, spread, both] = of_level;
+        let [a, b, c, d, channels @ .., row, column, spread, both, four] = of_level;
         for (at, of_row) in (4..).zip([a, b, c, d]) {
             assert_eq!(of_row, [rows[0][at]; LANES], "{level:?} lane {at}");
         }
@@ -510,6 +511,11 @@ fn blocks_have_columns_rows_and_channels() {
                 row => rows[1][lane_of(0, row - 4)],
             };
             assert_eq!(both[lane], expected, "{level:?}");
+            let expected = match lane {
+                column @ 0..4 => rows[0][lane_of(column, 0)],
+                row => rows[row / 4][lane_of(0, row % 4)],
+            };
+            assert_eq!(four[lane], expected, "{level:?}");
         }
     }
 }

@@ -186,6 +186,29 @@ pub trait Lanes: Simd {
         f32x16::load_array(self, both)
     }
 
+    /// Of a packet that is a block the values of its columns in lanes 0 to 3, and of three others
+    /// the values of their rows in the lanes after them, four for each.
+    #[inline(always)]
+    fn columns_and_three_rows(
+        self,
+        columns: f32x16<Self>,
+        rows: [f32x16<Self>; 3],
+    ) -> f32x16<Self> {
+        let of_columns = columns.to_array();
+        let of_rows = [rows[0].to_array(), rows[1].to_array(), rows[2].to_array()];
+        let mut all = of_columns;
+        let mut lane = 0;
+        while lane < 16 {
+            let at = crate::block::COLUMNS_AND_ROWS[if lane < 4 { lane } else { 4 + lane % 4 }];
+            all[lane] = match lane / 4 {
+                0 => of_columns[at],
+                row => of_rows[row - 1][at],
+            };
+            lane += 1;
+        }
+        f32x16::load_array(self, all)
+    }
+
     /// The values of lanes 0 to 3, each four times.
     #[inline(always)]
     fn spread_columns(self, value: f32x16<Self>) -> f32x16<Self> {

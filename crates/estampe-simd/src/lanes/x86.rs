@@ -101,6 +101,14 @@ impl Lanes for Avx2 {
         crate::block::columns_and_rows_avx2(self, columns, rows)
     }
     #[inline(always)]
+    fn columns_and_three_rows(
+        self,
+        columns: f32x16<Self>,
+        rows: [f32x16<Self>; 3],
+    ) -> f32x16<Self> {
+        crate::block::columns_and_three_rows_avx2(self, columns, rows)
+    }
+    #[inline(always)]
     fn spread_columns(self, value: f32x16<Self>) -> f32x16<Self> {
         crate::block::spread_avx2(self, value)
     }
@@ -176,6 +184,14 @@ impl Lanes for Avx512 {
     #[inline(always)]
     fn columns_and_rows(self, columns: f32x16<Self>, rows: f32x16<Self>) -> f32x16<Self> {
         crate::block::columns_and_rows_avx512(self, columns, rows)
+    }
+    #[inline(always)]
+    fn columns_and_three_rows(
+        self,
+        columns: f32x16<Self>,
+        rows: [f32x16<Self>; 3],
+    ) -> f32x16<Self> {
+        crate::block::columns_and_three_rows_avx512(self, columns, rows)
     }
     #[inline(always)]
     fn spread_columns(self, value: f32x16<Self>) -> f32x16<Self> {

@@ -277,11 +277,13 @@ impl SampledTexture {
     pub fn sample_each(&self, lod: PacketLod, at: &[[Packet<f32>; 2]], colors: &mut [Colors]) {
         let taps = at.chunks(MOST_TAPS).zip(colors.chunks_mut(MOST_TAPS));
         for (at, colors) in taps {
-            let others = self.sample_blocks(lod, at, colors);
-            for (tap, ([u, v], colors)) in at.iter().zip(colors).enumerate() {
-                if others >> tap & 1 == 0 {
-                    continue;
-                }
+            let mut others = self.sample_blocks(lod, at, colors);
+            while others != 0 {
+                let tap = others.trailing_zeros() as usize;
+                others &= others - 1;
+                let (Some([u, v]), Some(colors)) = (at.get(tap), colors.get_mut(tap)) else {
+                    break;
+                };
                 let request = PacketRequest {
                     at: [u, v, PacketRequest::ZEROS.at[2]],
                     lod,

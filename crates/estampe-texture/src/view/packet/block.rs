@@ -93,8 +93,8 @@ pub(super) struct BlockLevel<'a, S: SimdLanes> {
     /// The words of a row.
     pub(super) row_words: usize,
     pub(super) mode: AddressMode,
-    /// The numbers of columns, then of rows, in the order of
-    /// [`columns_and_rows`](SimdLanes::columns_and_rows).
+    /// The number of columns in lanes 0 to 3, of rows in the others: see
+    /// [`columns_and_three_rows`](SimdLanes::columns_and_three_rows).
     lengths: f32x16<S>,
     /// One less: texels below these numbers have a neighbour.
     last: f32x16<S>,
@@ -109,7 +109,8 @@ impl<'a, S: SimdLanes> BlockLevel<'a, S> {
             return None;
         }
         let [width, height] = [plane.size[0], plane.size[1]];
-        let lengths = s.columns_and_rows(SimdBase::splat(s, width), SimdBase::splat(s, height));
+        let rows = SimdBase::splat(s, height);
+        let lengths = s.columns_and_three_rows(SimdBase::splat(s, width), [rows; 3]);
         let [columns, rows, _] = plane.sides;
         let before = of.view.base_layer.cast_signed().wrapping_mul(rows);
         let before = usize::try_from(before.checked_mul(columns)?).ok()?;
@@ -150,7 +151,8 @@ impl<'a, S: SimdLanes> BlockLevel<'a, S> {
         if s.bits_of_mask(is_block) != u16::MAX {
             return None;
         }
-        let Place { texel, fraction } = self.place::<CLAMPS>(s, [u, v])?;
+        let both = s.columns_and_rows(u, v);
+        let Place { texel, fraction } = self.place::<CLAMPS>(s, both, PLACES)?;
         Some(Footprint {
             texel,
             are_neighbours: are_neighbours(s, texel.bitcast()),
@@ -159,26 +161,26 @@ impl<'a, S: SimdLanes> BlockLevel<'a, S> {
         })
     }
 
-    /// The texels of columns and rows, and the positions after their centres, of samples at (u, v)
-    /// that stand so; `None` if a texel is across a border.
+    /// The texels of unwrapped coordinates, of columns in lanes 0 to 3 and of rows in the others,
+    /// and the positions after their centres; `None` if a texel of these lanes is across a border.
     #[inline(always)]
     pub(super) fn place<const CLAMPS: bool>(
         &self,
         s: S,
-        [u, v]: [f32x16<S>; 2],
+        at: f32x16<S>,
+        lanes: u16,
     ) -> Option<Place<f32x16<S>>> {
         let mode = if CLAMPS {
             AddressMode::ClampToEdge
         } else {
             self.mode
         };
-        let wrapped = wrap(s.columns_and_rows(u, v), mode);
-        let place = place_by_lane(wrapped, self.lengths, self.last, mode);
+        let place = place_by_lane(wrap(at, mode), self.lengths, self.last, mode);
         let texel: i32x16<S> = place.texel;
         let last: i32x16<S> = self.last.to_int_within_range();
         let [at, end]: [u32x16<S>; 2] = [texel.bitcast(), last.bitcast()];
         let has_next: mask32x16<S> = at.simd_lt(end);
-        (s.bits_of_mask(has_next) & PLACES == PLACES).then_some(place)
+        (s.bits_of_mask(has_next) & lanes == lanes).then_some(place)
     }
 
     /// The four rows of texels of a block whose texels are neighbours, in five rows of five; `None`

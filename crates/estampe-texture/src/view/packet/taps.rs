@@ -11,18 +11,21 @@ use crate::view::packet_texel::RGBA16F;
 use crate::view::{PacketLod, SampledTexture};
 use crate::wrap::Place;
 use estampe_simd::{
-    Bytes, Columns, Lanes as SimdLanes, Packet as Values, SimdBase, dispatch, f32x16, i32x16,
-    mask32x16, u32x16,
+    Bytes, Columns, LANES, Lanes as SimdLanes, Packet as Values, SimdBase, dispatch, f32x16,
+    i32x16, mask32x16, u32x16,
 };
 use estampe_types::AddressMode;
 
 /// The most taps that are sampled together.
 pub(in crate::view) const MOST_TAPS: usize = 32;
 
-/// The most taps that share their columns.
-const MOST_SHARING: usize = 8;
+/// Taps whose places are found at once.
+const AT_ONCE: usize = 3;
 
-/// The most rows of texels of taps that share their columns.
+/// The most taps that share their columns.
+const MOST_SHARING: usize = 3 * AT_ONCE;
+
+/// The most rows of texels of taps that share their columns, less one: a power of two.
 const MOST_LINES: usize = 16;
 
 /// Which taps of several were sampled, and how: bit `i` is tap `i`.
@@ -83,37 +86,20 @@ impl SampledTexture {
     }
 }
 
-/// A tap among those that share their columns.
+/// Taps that share their columns, three in a register.
 #[derive(Debug, Clone, Copy)]
-struct Sharing<S: SimdLanes> {
-    number: usize,
-    /// The upper texel of each row of pixels.
-    rows: [i32; 4],
-    /// The positions between the texels of columns and rows.
-    fraction: f32x16<S>,
+struct Places {
+    /// The left texel of each column, then the upper texels of each tap's rows of pixels.
+    texels: Values<i32>,
+    /// The positions between these texels and the next.
+    fractions: Values<f32>,
 }
 
-/// Memory for taps that share their columns, one group after the other.
-struct Room<S: SimdLanes> {
-    taps: [Sharing<S>; MOST_SHARING],
-    /// Rows of texels, filtered along x.
-    lines: [f32x16<S>; MOST_LINES],
-}
-
-impl<S: SimdLanes> Room<S> {
-    #[inline(always)]
-    fn new(s: S) -> Self {
-        let zero = SimdBase::splat(s, 0.0);
-        let tap = Sharing {
-            number: 0,
-            rows: [0; 4],
-            fraction: zero,
-        };
-        Self {
-            taps: [tap; MOST_SHARING],
-            lines: [zero; MOST_LINES],
-        }
-    }
+impl Places {
+    const NONE: Self = Self {
+        texels: Values([0; LANES]),
+        fractions: Values([0.0; LANES]),
+    };
 }
 
 impl<S: SimdLanes> BlockLevel<'_, S> {
@@ -128,20 +114,26 @@ impl<S: SimdLanes> BlockLevel<'_, S> {
     ) -> Taps {
         let mut taps = Taps::default();
         let mut left = u32::MAX >> (32 - at.len().clamp(1, MOST_TAPS));
-        if at.len() > 1 {
-            let mut room = Room::new(s);
-            let mut first = left;
-            while first != 0 {
-                let same = with_columns_of(s, at, first);
-                first &= !same;
-                if !same.is_power_of_two()
-                    && self.sample_sharing::<CLAMPS>(s, (at, same), colors, &mut room)
-                {
-                    left &= !same;
+        let (mut groups, mut count) = ([0; MOST_TAPS / 2], 0);
+        let mut ungrouped = left;
+        while !(ungrouped == 0 || ungrouped.is_power_of_two()) {
+            let same = with_columns_of(s, at, ungrouped);
+            ungrouped &= !same;
+            if !same.is_power_of_two() {
+                groups[count % groups.len()] = same;
+                count += 1;
+            }
+        }
+        if count > 0 {
+            // Rows of texels, filtered along x, of one group after the other.
+            let mut lines = [<f32x16<S> as SimdBase<S>>::splat(s, 0.0); MOST_LINES + 1];
+            for &same in groups.iter().take(count) {
+                if self.sample_sharing::<CLAMPS>(s, (at, same), colors, &mut lines) {
                     taps.sharing |= same;
                 }
             }
         }
+        left &= !taps.sharing;
         while left != 0 {
             let number = left.trailing_zeros() as usize;
             left &= left - 1;
@@ -168,73 +160,87 @@ impl<S: SimdLanes> BlockLevel<'_, S> {
     fn sample_sharing<const CLAMPS: bool>(
         &self,
         s: S,
-        (at, mut taps): (&[[Values<f32>; 2]], u32),
+        (at, taps): (&[[Values<f32>; 2]], u32),
         colors: &mut [Answers],
-        room: &mut Room<S>,
+        lines: &mut [f32x16<S>; MOST_LINES + 1],
     ) -> bool {
         let Some([u, _]) = at.get(taps.trailing_zeros() as usize) else {
             return false;
         };
         let u = f32x16::load_array_ref(s, &u.0);
         let mut are_blocks: mask32x16<S> = u.simd_eq(s.first_row(u));
-        let mut across = u;
-        let mut texel = <i32x16<S> as SimdBase<S>>::splat(s, 0);
+        let mut all = [Places::NONE; MOST_SHARING / AT_ONCE];
         let (mut top, mut bottom) = (i32::MAX, 0);
-        let mut count = 0;
-        while taps != 0 {
-            let number = taps.trailing_zeros() as usize;
-            taps &= taps - 1;
-            let (Some([_, v]), Some(tap)) = (at.get(number), room.taps.get_mut(count)) else {
-                return false;
-            };
-            let v = f32x16::load_array_ref(s, &v.0);
-            are_blocks &= v.simd_eq(s.first_column(v));
-            let Some(place) = self.place::<CLAMPS>(s, [u, v]) else {
+        let (mut columns, mut left) = (None, taps);
+        for places in &mut all {
+            if left == 0 {
+                break;
+            }
+            let mut rows = [u; AT_ONCE];
+            let mut slot = 0;
+            while slot < AT_ONCE {
+                // A register that is not full repeats its first tap.
+                rows[slot] = rows[0];
+                if let Some([_, v]) = at.get(left.trailing_zeros() as usize) {
+                    rows[slot] = f32x16::load_array_ref(s, &v.0);
+                    are_blocks &= rows[slot].simd_eq(s.first_column(rows[slot]));
+                }
+                left &= left.wrapping_sub(1);
+                slot += 1;
+            }
+            let of_taps = s.columns_and_three_rows(u, rows);
+            let Some(place) = self.place::<CLAMPS>(s, of_taps, u16::MAX) else {
                 return false;
             };
             let place: Place<f32x16<S>> = place;
-            let of_place = place.texel.to_array();
-            let rows = [of_place[4], of_place[5], of_place[6], of_place[7]];
-            *tap = Sharing {
-                number,
-                rows,
-                fraction: place.fraction,
-            };
-            top = top.min(rows[0]).min(rows[3]);
-            bottom = bottom.max(rows[0]).max(rows[3]);
-            (texel, across) = (place.texel, place.fraction);
-            count += 1;
-        }
-        if s.bits_of_mask(are_blocks) != u16::MAX {
-            return false;
-        }
-        let across = s.spread_columns(across);
-        let count_of_lines = (bottom - top).cast_unsigned() as usize + 2;
-        let Some(lines) = room.lines.get_mut(..count_of_lines) else {
-            return false;
-        };
-        if self.lines(s, (texel, across), top, lines).is_none() {
-            return false;
-        }
-        for tap in room.taps.iter().take(count) {
-            let down = s.spread_rows(tap.fraction);
-            let mut filtered = [across; 4];
-            let mut row = 0;
-            while row < 4 {
-                // In a mirrored texture, a row between may be beyond the first and the last.
-                let line = tap.rows[row].wrapping_sub(top).cast_unsigned() as usize;
-                let pair = lines.get(line..).and_then(|lines| lines.first_chunk());
-                let Some(&[upper, lower]) = pair else {
-                    return false;
-                };
-                filtered[row] = upper + (lower - upper) * down[row];
+            places.texels.0 = place.texel.to_array();
+            places.fractions = packet(place.fraction, 0);
+            let mut row = 4;
+            while row < LANES {
+                // In a mirrored texture, any row may be the first or the last.
+                if !CLAMPS || row % 4 == 0 || row % 4 == 3 {
+                    top = top.min(places.texels.0[row]);
+                    bottom = bottom.max(places.texels.0[row]);
+                }
                 row += 1;
             }
-            let [r, g, b, a] = s.channels_of_rows(filtered);
-            let Some(colors) = colors.get_mut(tap.number) else {
-                return false;
-            };
-            *colors = [packet(r, 0), packet(g, 0), packet(b, 0), packet(a, 0)];
+            columns = Some((place.texel, s.spread_columns(place.fraction)));
+        }
+        let Some(columns) = columns else {
+            return false;
+        };
+        let last = (bottom - top).cast_unsigned() as usize + 1;
+        let is_near = left == 0 && last < MOST_LINES;
+        if !is_near || s.bits_of_mask(are_blocks) != u16::MAX {
+            return false;
+        }
+        if self.lines(s, columns, top, &mut lines[..=last]).is_none() {
+            return false;
+        }
+        let mut left = taps;
+        for places in &all {
+            let mut slot = 0;
+            while slot < AT_ONCE {
+                let Some(colors) = colors.get_mut(left.trailing_zeros() as usize) else {
+                    return left == 0;
+                };
+                left &= left - 1;
+                let mut filtered = [u; 4];
+                let mut row = 0;
+                while row < 4 {
+                    let lane = 4 * slot + 4 + row;
+                    let line = places.texels.0[lane].wrapping_sub(top).cast_unsigned() as usize;
+                    // Below the number of lines already: without a test.
+                    let line = line % MOST_LINES;
+                    let (upper, lower) = (lines[line], lines[line + 1]);
+                    let down = <f32x16<S> as SimdBase<S>>::splat(s, places.fractions.0[lane]);
+                    filtered[row] = upper + (lower - upper) * down;
+                    row += 1;
+                }
+                let [r, g, b, a] = s.channels_of_rows(filtered);
+                *colors = [packet(r, 0), packet(g, 0), packet(b, 0), packet(a, 0)];
+                slot += 1;
+            }
         }
         true
     }
@@ -282,25 +288,25 @@ impl<S: SimdLanes> BlockLevel<'_, S> {
 /// The first of some taps, each a bit, and those whose u is the same: at most [`MOST_SHARING`].
 #[inline(always)]
 fn with_columns_of<S: SimdLanes>(s: S, at: &[[Values<f32>; 2]], taps: u32) -> u32 {
-    // Of a block, these lanes are the four columns.
-    let columns = |[u, _]: &[Values<f32>; 2]| [u.0[0], u.0[1], u.0[4], u.0[5]].map(f32::to_bits);
     let first = taps.trailing_zeros() as usize;
     let (mut same, mut left) = (1 << first, taps & (taps - 1));
-    let Some(of_first) = at.get(first) else {
+    let Some([of_first, _]) = at.get(first) else {
         return same;
     };
-    let bits: u32x16<S> = f32x16::load_array_ref(s, &of_first[0].0).bitcast();
+    let first_lane = of_first.0[0].to_bits();
+    let bits: u32x16<S> = f32x16::load_array_ref(s, &of_first.0).bitcast();
     let mut room = MOST_SHARING - 1;
     while left != 0 && room != 0 {
         let number = left.trailing_zeros() as usize;
         left &= left - 1;
-        let Some(tap) = at
+        // Most taps differ in the first lane already.
+        let Some([u, _]) = at
             .get(number)
-            .filter(|tap| columns(tap) == columns(of_first))
+            .filter(|[u, _]| u.0[0].to_bits() == first_lane)
         else {
             continue;
         };
-        let of_tap: u32x16<S> = f32x16::load_array_ref(s, &tap[0].0).bitcast();
+        let of_tap: u32x16<S> = f32x16::load_array_ref(s, &u.0).bitcast();
         let is_same: mask32x16<S> = of_tap.simd_eq(bits);
         if s.bits_of_mask(is_same) == u16::MAX {
             same |= 1 << number;
