@@ -1,6 +1,6 @@
 //! The page on which the pipeline reads: what a draw is, and the order in which its stages run.
 
-use crate::attachment::RenderTarget;
+use crate::attachment::{RenderTarget, TileRows};
 use crate::bounds::chunk::{Chunk, ChunkIndex};
 use crate::commands::{Discards, Draw, OcclusionQueries, RenderPass};
 use crate::geometry::chunk::{ChunkScratch, Neighbours, add_part};
@@ -203,6 +203,9 @@ impl Context {
         for resolve in &mut target.resolves {
             resolve.is_done = false;
         }
+        for rows in &mut target.rows {
+            rows.is_done = false;
+        }
         let executor = self.executor_of(pass.draws);
         let mut cursor = DrawCursor::new(pass.draws, self.level);
         let mut batch = DrawBatch::new(
@@ -379,6 +382,9 @@ impl Context {
             resolved[resolve.color] = Some(resolve.into.format());
             resolve.is_done = true;
         }
+        for rows in target.rows.iter_mut().filter(|_| is_last) {
+            rows.is_done = rows.words_mut().is_some();
+        }
         let chunks = &memory.chunks[..chunks];
         memory.chunk_index.build(target.grid().tiles(), chunks);
         let facts = TargetFacts {
@@ -463,6 +469,15 @@ fn tile_jobs<'a>(target: &'a mut RenderTarget, jobs: &mut Vec<TileJob<'a>>) {
         let slices = resolve.into.words.chunks_exact_mut(elements);
         for (job, slice) in jobs.iter_mut().zip(slices) {
             job.resolved[resolve.color] = slice;
+        }
+    }
+    for rows in target.rows.iter_mut().filter(|rows| rows.is_done) {
+        let color = (rows.color, target.color_formats[rows.color]);
+        if let Some(words) = rows.words_mut() {
+            let tiles = TileRows::of_image(color, target.size, words);
+            for (job, of_tile) in jobs.iter_mut().zip(tiles) {
+                job.rows.push(of_tile);
+            }
         }
     }
     let Some(texels) = &mut target.depth_stencil else {

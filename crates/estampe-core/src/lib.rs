@@ -64,7 +64,7 @@ mod transfer;
 
 pub use amplification::domain::TessellatedDomain;
 pub use attachment::{
-    ColorResolve, ColorTexels, DepthStencilTexels, ImageSize, RenderTarget, ResolveMode,
+    ColorResolve, ColorRows, ColorTexels, DepthStencilTexels, ImageSize, RenderTarget, ResolveMode,
     TargetShape, row_order_words,
 };
 pub use commands::{

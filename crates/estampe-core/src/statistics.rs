@@ -90,6 +90,9 @@ pub struct Statistics {
     /// Colour attachments of tiles that were resolved when the tile was drawn.
     #[doc(hidden)]
     pub tiles_resolved: u64,
+    /// Colour attachments of tiles that were stored to images in row order when the tile was drawn.
+    #[doc(hidden)]
+    pub tiles_to_rows: u64,
     /// Tiles of which some attachment was in the memory of a worker alone.
     #[doc(hidden)]
     pub tiles_in_workers: u64,
@@ -147,6 +150,7 @@ impl std::ops::AddAssign for Statistics {
         self.paths += other.paths;
         self.groups_of_geometry += other.groups_of_geometry;
         self.tiles_resolved += other.tiles_resolved;
+        self.tiles_to_rows += other.tiles_to_rows;
         self.tiles_in_workers += other.tiles_in_workers;
         self.packets_shown_uncleared += other.packets_shown_uncleared;
         self.geometry += other.geometry;

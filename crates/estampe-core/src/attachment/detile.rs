@@ -25,13 +25,13 @@ use estampe_simd::{
 };
 
 /// Columns, and rows, that are written together.
-const SQUARE: usize = 16;
+pub(super) const SQUARE: usize = 16;
 
 /// Rows of a packet, and columns.
-const PACKET_SIDE: usize = 4;
+pub(super) const PACKET_SIDE: usize = 4;
 
 /// The most bytes of a texel.
-const MAX_BYTES: usize = 16;
+pub(super) const MAX_BYTES: usize = 16;
 
 /// An attachment as it is stored.
 #[derive(Debug, Clone, Copy)]
@@ -211,7 +211,7 @@ fn rows_of_band(
 /// Writes four packets that lie beside each other: sixteen texels at the begin of each of four
 /// rows.
 #[inline(always)]
-fn write_rows<S: Lanes, const WORDS: usize, const BYTES: usize>(
+pub(super) fn write_rows<S: Lanes, const WORDS: usize, const BYTES: usize>(
     s: S,
     packets: [&[u32]; 4],
     to: [&mut [u8]; PACKET_SIDE],

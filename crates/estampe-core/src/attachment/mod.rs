@@ -13,7 +13,7 @@
 //! A packet of 16 RGBA8 or depth values is therefore one aligned 64-byte line, any aligned
 //! power-of-two tile is one contiguous slice, and workers get safe `&mut` slices. Filling was
 //! measured three times slower with rows in memory, where every packet touches four lines; rows are
-//! made once, on read-back.
+//! made once: on read-back, or tile by tile when an image that shaders sample is drawn.
 
 mod depth_texture;
 mod detile;
@@ -24,8 +24,10 @@ mod retile;
 pub(crate) mod row_order;
 mod target;
 mod texels;
+mod tile_rows;
 
 pub use resolve_depth::ResolveMode;
 pub use row_order::row_order_words;
-pub use target::{ColorResolve, RenderTarget, TargetShape};
+pub use target::{ColorResolve, ColorRows, RenderTarget, TargetShape};
 pub use texels::{ColorTexels, DepthStencilTexels, ImageSize};
+pub(crate) use tile_rows::TileRows;

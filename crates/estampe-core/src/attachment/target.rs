@@ -4,6 +4,8 @@ use super::texels::{ColorTexels, DepthStencilTexels, ImageSize};
 use crate::depth_format::DepthFormat;
 use crate::layout::TileGrid;
 use estampe_types::TextureFormat;
+use std::ops::Range;
+use std::sync::Arc;
 
 /// The samples and formats of a target, without its pixels.
 #[derive(Debug, Clone, Copy)]
@@ -19,11 +21,32 @@ pub struct TargetShape<'a> {
 /// The attachments of a pass: colours, depth and stencil of one size.
 #[derive(Debug, Clone)]
 pub struct RenderTarget {
-    size: ImageSize,
+    pub(crate) size: ImageSize,
     pub(crate) colors: Vec<ColorTexels>,
-    color_formats: Vec<TextureFormat>,
+    pub(crate) color_formats: Vec<TextureFormat>,
     pub(crate) depth_stencil: Option<DepthStencilTexels>,
     pub(crate) resolves: Vec<ColorResolve>,
+    pub(crate) rows: Vec<ColorRows>,
+}
+
+/// An image in row order that takes the texels of a colour attachment of one sample.
+#[derive(Debug, Clone)]
+pub struct ColorRows {
+    /// The index of the colour attachment.
+    pub color: usize,
+    /// Words among which the image lies. Nobody else may share them: else they are not stored to.
+    pub texels: Arc<[u32]>,
+    /// The words of the image: [`row_order_words`](super::row_order_words).
+    pub range: Range<usize>,
+    /// True if the image holds what the pass has drawn.
+    pub is_done: bool,
+}
+
+impl ColorRows {
+    /// The words of the image, unless they are shared.
+    pub(crate) fn words_mut(&mut self) -> Option<&mut [u32]> {
+        Arc::get_mut(&mut self.texels)?.get_mut(self.range.clone())
+    }
 }
 
 /// An image of one sample that takes the means of a colour attachment's samples.
@@ -57,6 +80,7 @@ impl RenderTarget {
             colors,
             depth_stencil,
             resolves: Vec::new(),
+            rows: Vec::new(),
         }
     }
 
@@ -80,6 +104,24 @@ impl RenderTarget {
     /// Takes the images that attachments are resolved into.
     pub fn take_resolves(&mut self) -> Vec<ColorResolve> {
         std::mem::take(&mut self.resolves)
+    }
+
+    /// Has passes store the texels of a colour attachment, which must have one sample, to an image
+    /// in row order while they are in the cache. If a pass discards the attachment, the image holds
+    /// its texels all the same, and the attachment may be left as it is.
+    pub fn store_rows(&mut self, color: usize, texels: Arc<[u32]>, range: Range<usize>) {
+        debug_assert_eq!(self.size.samples, 1, "rows of one sample");
+        self.rows.push(ColorRows {
+            color,
+            texels,
+            range,
+            is_done: false,
+        });
+    }
+
+    /// Takes the images in row order.
+    pub fn take_rows(&mut self) -> Vec<ColorRows> {
+        std::mem::take(&mut self.rows)
     }
 
     /// The samples and formats.

@@ -15,6 +15,7 @@ mod worker_tile;
 
 pub(crate) use clear::Clear;
 
+use crate::attachment::TileRows;
 use crate::attachment::resolve::ResolveJob;
 use crate::bounds::bins::BinEntry;
 use crate::bounds::chunk::{Chunk, ChunkIndex};
@@ -80,6 +81,8 @@ pub(crate) struct TileJob<'a> {
     pub(crate) stencil: &'a mut [[u8; LANES]],
     /// The images that colours are resolved into.
     pub(crate) resolved: [&'a mut [u32]; MAX_TARGETS],
+    /// The images in row order that colours are stored to when the tile is drawn.
+    pub(crate) rows: Vec<TileRows<'a>>,
     /// The tile that the worker draws next.
     pub(crate) next: NextTile<'a>,
 }
@@ -93,6 +96,7 @@ impl TileJob<'_> {
             depth: self.depth,
             stencil: self.stencil,
             resolved: self.resolved.each_mut().map(|image| &mut **image),
+            rows: std::mem::take(&mut self.rows),
             next,
         }
     }
@@ -167,6 +171,10 @@ fn draw_into<const N: usize>(
     visibility::resolve(pass, job, scratch);
     clear_colors(pass, job, scratch);
     resolve_samples(pass, job, scratch);
+    for rows in &mut job.rows {
+        rows.store(pass.level, job.colors[rows.color].as_flattened());
+        scratch.statistics.tiles_to_rows += 1;
+    }
 }
 
 /// Resolves the colours of a tile that is drawn, while they are in the cache.

@@ -95,6 +95,27 @@ impl Attachments<'_> {
         (target, newest)
     }
 
+    /// Has the core store rows of the colours that shaders sampled before; returns the attachments
+    /// of which it may leave the tiles as they are, a bit for each.
+    ///
+    /// An image that is sampled after each pass is then neither written in tiles nor converted.
+    pub(super) fn store_rows(&self, target: &mut RenderTarget) -> u8 {
+        let mut without_tiles = 0;
+        if self.size.samples > 1 {
+            return without_tiles;
+        }
+        for (number, color) in self.colors.iter().enumerate() {
+            let mut contents = color.image.view.texture().lock();
+            if color.attachment.store == StoreOp::Store
+                && let Some((texels, range)) = contents.take_rows(color.image.key)
+            {
+                target.store_rows(number, texels, range);
+                without_tiles |= u8::from(!contents.is_loaded(color.image.key)) << number;
+            }
+        }
+        without_tiles
+    }
+
     /// Resolves the images, and puts them back into their textures.
     pub(super) fn finish(
         &self,
@@ -102,6 +123,12 @@ impl Attachments<'_> {
         mut target: RenderTarget,
         depth_newest: Option<Newest>,
     ) -> Result<(), PassErrorKind> {
+        let mut has_rows = 0;
+        for rows in target.take_rows() {
+            let mut contents = self.colors[rows.color].image.view.texture().lock();
+            contents.put_rows(rows.texels);
+            has_rows |= u8::from(rows.is_done) << rows.color;
+        }
         let resolves = target.take_resolves();
         let (colors, depth_stencil) = target.into_images();
         let mut result = Ok(());
@@ -115,12 +142,17 @@ impl Attachments<'_> {
                 resolve.view.texture().lock().put(resolve.key, into);
             }
         }
-        for (color, image) in self.colors.iter().zip(colors) {
+        for (number, (color, image)) in self.colors.iter().zip(colors).enumerate() {
             let format = color.image.view.texture().format();
             let image = Image::Color(image.with_format(format));
             let mut contents = color.image.view.texture().lock();
+            let key = color.image.key;
             match color.attachment.store {
-                StoreOp::Store => contents.put(color.image.key, image),
+                StoreOp::Store if has_rows >> number & 1 == 1 => {
+                    let has_tiles = contents.is_loaded(key);
+                    contents.put_with_rows(key, image, has_tiles);
+                }
+                StoreOp::Store => contents.put(key, image),
                 StoreOp::Discard => contents.discard(color.image.key, image),
             }
         }

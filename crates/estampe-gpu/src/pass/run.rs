@@ -143,7 +143,7 @@ fn run(device: &Device, pass: &RenderPass<'_>) -> Result<Statistics, PassErrorKi
     data.fill(context, pass.draws, &groups, &resources);
     let mut draws = recycled(draws);
     data.draws_into(context, pass.draws, &mut draws);
-    let core_pass = estampe_core::RenderPass {
+    let mut core_pass = estampe_core::RenderPass {
         discards: attachments[0].discards(),
         ..core_pass(pass, attachments[0].loads(), &draws)
     };
@@ -153,6 +153,9 @@ fn run(device: &Device, pass: &RenderPass<'_>) -> Result<Statistics, PassErrorKi
     let layers = attachments.iter().zip(taken);
     let (mut targets, depths_newest): (Vec<_>, Vec<_>) =
         layers.map(|(layer, taken)| layer.target(taken)).unzip();
+    if let ([layer], [target]) = (&attachments[..], &mut targets[..]) {
+        core_pass.discards.colors |= layer.store_rows(target);
+    }
     let stops = stops(pass);
     let drawn = draw(device, &mut targets, pass, core_pass);
     let mut stopped = None;

@@ -5,7 +5,7 @@ use super::{Texture, TextureError, TextureView, words};
 use estampe_core::{ColorTexels, Context, DepthStencilTexels, row_order_words};
 use estampe_texture::MipGeneration;
 use estampe_types::{Limits, ShadowMap, StorageTexture, TexelData, TextureFormat};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -63,6 +63,8 @@ pub(crate) struct Contents {
     stored: BTreeMap<u32, StoredLevel>,
     /// The blocks of compressed images.
     pub(super) blocks: Blocks,
+    /// The images that a pass has loaded, so that tiles of them are kept up to date.
+    loaded: BTreeSet<ImageKey>,
     /// True if the host wrote rows since their opacity was found out.
     is_written: bool,
 }
@@ -237,6 +239,9 @@ impl Contents {
         key: ImageKey,
         keeps: bool,
     ) -> Result<(Image, Newest), TextureError> {
+        if keeps {
+            self.loaded.insert(key);
+        }
         let stored = self.stored.get(&key.level);
         if stored.is_some_and(|stored| stored.state == WordsState::Newest) {
             self.update_rows(texture, context)?;
@@ -272,6 +277,41 @@ impl Contents {
     pub(crate) fn put(&mut self, key: ImageKey, image: Image) {
         self.outdate_words(key.level);
         self.images.insert(key, (image, Newest::Tiles));
+    }
+
+    /// Takes the words of all rows out, and says which are those of an image, for a pass that
+    /// stores the image's rows while it draws. `None` if nothing has read rows yet, so that they
+    /// may never be needed, or if somebody reads them now. [`Contents::put_rows`] must be called
+    /// afterwards.
+    pub(crate) fn take_rows(&mut self, key: ImageKey) -> Option<(Arc<[u32]>, Range<usize>)> {
+        let data = Arc::get_mut(self.rows.as_mut()?)?;
+        let range = words_of(data, key);
+        Arc::get_mut(&mut data.texels)?.get(range.clone())?;
+        data.is_opaque = false;
+        Some((std::mem::take(&mut data.texels), range))
+    }
+
+    /// Puts the words of all rows back.
+    pub(crate) fn put_rows(&mut self, texels: Arc<[u32]>) {
+        let data = self.rows.as_mut().and_then(Arc::get_mut);
+        data.expect("nobody reads rows that were taken").texels = texels;
+    }
+
+    /// True if a pass has loaded an image: the next one may do so again.
+    pub(crate) fn is_loaded(&self, key: ImageKey) -> bool {
+        self.loaded.contains(&key)
+    }
+
+    /// Puts an image back of which a pass has stored the rows; without `has_tiles` the tiles are
+    /// out of date.
+    pub(crate) fn put_with_rows(&mut self, key: ImageKey, image: Image, has_tiles: bool) {
+        self.outdate_words(key.level);
+        let newest = if has_tiles {
+            Newest::Both
+        } else {
+            Newest::Rows
+        };
+        self.images.insert(key, (image, newest));
     }
 
     /// Puts an image back that is as it was taken.

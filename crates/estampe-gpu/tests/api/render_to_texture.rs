@@ -5,8 +5,8 @@ use crate::support::sampling::{FLAT, Turned, draw_over, sampled_group, sampling_
 use crate::support::{Fill, clear, devices, noise, read_layer, texture, write_level};
 use estampe::state::ScissorRect;
 use estampe::{
-    ColorAttachment, Draw, Extent3d, RenderPass, RenderPipelineDescriptor, TexelCopyLayout,
-    TextureDescriptor, TextureFormat, TextureViewDescriptor, srgb,
+    BindGroup, ColorAttachment, Draw, Extent3d, RenderPass, RenderPipelineDescriptor,
+    TexelCopyLayout, Texture, TextureDescriptor, TextureFormat, TextureViewDescriptor, srgb,
 };
 
 /// The host writes A; passes draw A into B, B into A and A into B; between them the host reads, and
@@ -70,6 +70,59 @@ fn pictures_are_sampled_and_rendered_to_in_turn() {
                 let is_drawn = at / 4 % 70 >= 30;
                 let expected = if is_drawn { &over } else { &changed };
                 assert_eq!(*code, expected[at], "byte {at}, {format:?}, {name}");
+            }
+        }
+    }
+}
+
+/// An image that shaders sampled before is stored in rows while it is drawn, and in tiles only if a
+/// pass has loaded it.
+#[test]
+fn images_that_are_sampled_after_each_pass_are_stored_in_rows() {
+    for (size, format) in [
+        ([70, 45], TextureFormat::Rgba8Unorm),
+        ([130, 129], TextureFormat::Bgra8Unorm),
+        ([64, 128], TextureFormat::Rgba8Unorm),
+    ] {
+        for (name, device) in devices() {
+            let (layout, pipeline) = sampling_pipeline(&device, Turned, FLAT, format);
+            let [a, b, c] = [0, 1, 2].map(|_| texture(&device, size, format));
+            let [from_a, from_b] =
+                [&a, &b].map(|from| sampled_group(&device, &layout, &from.view()));
+            let draw = |group: &BindGroup, into: &Texture, loads: bool| {
+                let into = into.view();
+                let attachment = match loads {
+                    true => ColorAttachment::load(&into),
+                    false => ColorAttachment::clear(&into, [0.0; 4]),
+                };
+                let pass = RenderPass {
+                    color_attachments: &[Some(attachment)],
+                    draws: &[Draw {
+                        bind_groups: std::slice::from_ref(group),
+                        ..Draw::new(&pipeline, 0..3)
+                    }],
+                    ..RenderPass::default()
+                };
+                device.render(&pass).unwrap()
+            };
+            let once_more = |bytes: &[u8]| turned(bytes, size, size, format.is_bgra());
+            for frame in 0..5 {
+                let what = format!("frame {frame}, {size:?}, {format:?}, {name}");
+                let first = noise((size[0] * size[1] * 4) as usize, 7 + frame);
+                write_level(&device, &a, 0, &first);
+                let statistics = draw(&from_a, &b, frame == 2);
+                let has_rows = frame > 0;
+                assert_eq!(statistics.tiles_to_rows > 0, has_rows, "{what}");
+                let has_tiles = frame == 0 || frame >= 2;
+                assert_eq!(statistics.tiles_in_workers == 0, has_tiles, "{what}");
+                let statistics = draw(&from_b, &c, false);
+                assert_eq!(statistics.tiles_to_rows, 0, "{what}");
+                let once = once_more(&first);
+                assert!(device.read_texture(&b).unwrap() == once, "{what}");
+                assert!(
+                    device.read_texture(&c).unwrap() == once_more(&once),
+                    "{what}"
+                );
             }
         }
     }

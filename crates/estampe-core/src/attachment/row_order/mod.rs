@@ -28,12 +28,12 @@ fn words_each(format: TextureFormat) -> usize {
     }
 }
 
-fn swaps_red_and_blue(format: TextureFormat) -> bool {
+pub(super) fn swaps_red_and_blue(format: TextureFormat) -> bool {
     use TextureFormat as F;
     matches!(format, F::Bgra8Unorm | F::Bgra8UnormSrgb)
 }
 
-fn swapped(word: u32) -> u32 {
+pub(super) fn swapped(word: u32) -> u32 {
     word & 0xFF00_FF00 | (word & 0xFF) << 16 | (word >> 16 & 0xFF)
 }
 
