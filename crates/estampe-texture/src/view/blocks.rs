@@ -10,6 +10,7 @@ use estampe_simd::{
     i32x16, mask32x16, u32x4, u32x16,
 };
 use estampe_types::ViewDimension;
+use estampe_types::morton::{compact, spread};
 
 impl TexelView {
     /// Fetches the texels of several textures at the same places (x, y) of a level. `false` unless
@@ -38,12 +39,15 @@ impl TexelView {
             let Some(at) = first_of_block(s, [x, y], of_first) else {
                 return false;
             };
+            let ahead = two_blocks_ahead([x.0[0], y.0[0]]);
             for (view, texels) in views.iter().zip(texels) {
                 let plane = &view.planes[mips.0[0].cast_unsigned() as usize];
                 let Some([r, g, b, a]) = view.block_at(s, plane, at) else {
                     return false;
                 };
-                view.prefetch_blocks(s, plane, [x.0[0], y.0[0]]);
+                if let Some(ahead) = ahead {
+                    view.prefetch_blocks(s, plane, ahead);
+                }
                 *texels = [packet(r, 0), packet(g, 0), packet(b, 0), packet(a, 0)];
             }
             true
@@ -60,31 +64,20 @@ impl TexelView {
             })
     }
 
-    /// Prefetches blocks that come after the one at a place in the order in which tiles are shaded,
-    /// Morton order: the one below, and from the lower row of a square of blocks the next square.
-    /// Those pass after pass reads are in no cache near the processor, as images are large, and
-    /// rows of one are too short for the processor to foresee.
+    /// Prefetches a block at a place and the one to the right of it, as far as they are in the
+    /// texture.
     #[inline(always)]
     fn prefetch_blocks<S: SimdLanes>(&self, s: S, plane: &Plane, [x, y]: [i32; 2]) {
         let words = self.packets.map_or(1, |format| format.words);
-        let row = words * plane.sides[0];
+        let row = words.wrapping_mul(plane.sides[0]);
         let slice = self.base_layer.cast_signed().wrapping_mul(plane.sides[1]);
         let first = slice.wrapping_add(y).wrapping_mul(row);
-        let first = first.wrapping_add(x * words + plane.begin_words(words));
-        let is_right = x & SIDE != 0;
-        if is_right {
-            return;
-        }
+        let first = first.wrapping_add(x.wrapping_mul(words) + plane.begin_words(words));
         let texels = &self.texture.texels[..];
-        for line in SIDE..2 * SIDE {
-            let at = first.wrapping_add(line * row);
-            if let Some(word) = texels.get(at.cast_unsigned() as usize) {
-                s.prefetch(word);
-            }
-        }
-        if y & SIDE != 0 {
-            for line in -SIDE..0 {
-                let at = first.wrapping_add(line * row + 2 * SIDE * words);
+        for line in 0..SIDE {
+            let begin = first.wrapping_add(line.wrapping_mul(row));
+            // Both blocks lie in one cache line or two.
+            for at in [begin, begin.wrapping_add(2 * SIDE * words - 1)] {
                 if let Some(word) = texels.get(at.cast_unsigned() as usize) {
                     s.prefetch(word);
                 }
@@ -148,6 +141,27 @@ fn first_of_block<S: SimdLanes>(
     (is_inside && s.bits_of_mask(is_block) == u16::MAX).then(|| top * width + left)
 }
 
+/// For a block in an even column, where the block begins that comes four later in the order in
+/// which passes shade: tiles of 64×64 pixels from left to right, and in a tile Morton order.
+///
+/// What pass after pass reads is in no cache near the processor, as images are large, and rows of a
+/// tile are too short for the processor to foresee.
+#[inline(always)]
+fn two_blocks_ahead([x, y]: [i32; 2]) -> Option<[i32; 2]> {
+    let [column, row] = [x / SIDE, y / SIDE].map(i32::cast_unsigned);
+    if column & 1 != 0 {
+        return None;
+    }
+    let ahead = (spread(column % TILE) | spread(row % TILE) << 1) + 4;
+    // After a tile's last blocks come the first of the tile to the right.
+    let (tile, in_tile) = (column / TILE + ahead / BLOCKS, ahead % BLOCKS);
+    let blocks = [
+        tile * TILE + compact(in_tile),
+        row / TILE * TILE + compact(in_tile >> 1),
+    ];
+    Some(blocks.map(|block| block.cast_signed() * SIDE))
+}
+
 /// The words of a block of texels of one word, from its first word and the words of a row of the
 /// image; `None` if they are not in memory.
 #[inline(always)]
@@ -187,6 +201,11 @@ pub(super) fn rows_of_halves<S: SimdLanes>(
 /// The columns and rows of a block.
 const SIDE: i32 = 4;
 
+/// The blocks of a row of a tile.
+const TILE: u32 = 16;
+/// The blocks of a tile.
+const BLOCKS: u32 = TILE * TILE;
+
 /// The columns of a block's lanes.
 const COLUMNS: [u32; LANES] = times(LANE_X, 1);
 /// The rows of a block's lanes.
@@ -201,3 +220,25 @@ const PLACES: [u32; LANES] = {
     }
     places
 };
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The block four later in Morton order, tile after tile.
+    #[test]
+    fn the_next_blocks_are_those_that_passes_shade_next() {
+        let order: Vec<[i32; 2]> = (0..2)
+            .flat_map(|tile| {
+                (0..BLOCKS).map(move |at| [tile * TILE + compact(at), compact(at >> 1)])
+            })
+            .map(|blocks| blocks.map(|block| block.cast_signed() * SIDE))
+            .collect();
+        for (at, &[x, y]) in order.iter().enumerate().take(order.len() - 4) {
+            let expected = (at % 2 == 0).then(|| order[at + 4]);
+            assert_eq!(two_blocks_ahead([x, y]), expected, "{x} {y}");
+            let below = expected.map(|[x, y]| [x, y + 64]);
+            assert_eq!(two_blocks_ahead([x, y + 64]), below, "{x} {y}");
+        }
+    }
+}
