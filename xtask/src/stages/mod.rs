@@ -26,6 +26,7 @@ const LAYERS: &[&[&str]] = &[
         "layout",
         "pipeline",
         "profile",
+        "recycle",
         "statistics",
         "tile_path",
     ],
