@@ -45,7 +45,9 @@ impl<'a> NextTile<'a> {
         let (now, later) = self.depth.split_at(lines.min(self.depth.len()));
         self.depth = later;
         now.iter().for_each(|line| s.prefetch(line));
-        self.rows.step(s, lines);
+        if self.rows.left > 0 {
+            self.rows.step(s, lines);
+        }
     }
 
     /// The lines that are not prefetched yet, of colours, depths or rows, whichever are most.
@@ -78,7 +80,8 @@ impl<'a> RowLines<'a> {
         }
     }
 
-    #[inline(always)]
+    // A function of its own: few passes have rows, and the loops over layers must stay small.
+    #[inline(never)]
     fn step<S: Lanes>(&mut self, s: S, lines: usize) {
         let lines = lines.min(self.left);
         self.left -= lines;
