@@ -2,6 +2,7 @@
 
 use crate::attachment::{RenderTarget, TileRows};
 use crate::bounds::chunk::{Chunk, ChunkIndex};
+use crate::bounds::pixel_rect::PixelRect;
 use crate::commands::{Discards, Draw, OcclusionQueries, RenderPass};
 use crate::geometry::chunk::{ChunkScratch, Neighbours, add_part};
 use crate::geometry::shaded_vertices::{ShadedVertices, VertexJob};
@@ -408,6 +409,7 @@ impl Context {
         let pass = TilePass {
             level: self.level,
             grid: target.grid(),
+            target: PixelRect::of_target(None, target.size.width, target.size.height),
             plans: &plans,
             chunks,
             chunk_index: &memory.chunk_index,

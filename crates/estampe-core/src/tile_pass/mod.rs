@@ -50,6 +50,8 @@ const HIZ_PACKETS: i32 = 16;
 pub(crate) struct TilePass<'a> {
     pub(crate) level: Level,
     pub(crate) grid: TileGrid,
+    /// The pixels of the attachments, which end before the tiles at the right and below do.
+    pub(crate) target: PixelRect,
     /// By sub-draw.
     pub(crate) plans: &'a [TilePlan<'a>],
     pub(crate) chunks: &'a [Chunk],
@@ -69,6 +71,15 @@ impl TilePass<'_> {
     /// The samples of a pixel.
     fn sample_set<const N: usize>(&self) -> SampleSet<N> {
         SampleSet::new(self.samples)
+    }
+
+    fn tile_shape(&self, tile: u32) -> TileShape {
+        let (x, y) = self.grid.tile_origin(tile);
+        TileShape {
+            x: x.cast_signed(),
+            y: y.cast_signed(),
+            log2: self.grid.tile_log2(),
+        }
     }
 }
 
@@ -203,8 +214,8 @@ fn begin<const N: usize>(pass: &TilePass<'_>, job: &mut TileJob<'_>, scratch: &m
     } else {
         MAX_TARGETS
     };
-    pass.clear.depth_stencil(pass.level, job);
-    pass.clear.colors(pass.level, job, 0..waiting, None);
+    pass.clear.depth_stencil(pass, job);
+    pass.clear.colors(pass, job, 0..waiting, None);
     scratch.colors_wait = pass.clear.clears_colors_from(waiting);
     scratch.hiz.begin(pass.clear.depth);
 }
@@ -217,7 +228,7 @@ fn clear_colors<const N: usize>(
 ) {
     if std::mem::take(&mut scratch.colors_wait) {
         let waiting = pass.clear.first_waiting()..MAX_TARGETS;
-        pass.clear.colors(pass.level, job, waiting, None);
+        pass.clear.colors(pass, job, waiting, None);
     }
 }
 
@@ -276,12 +287,7 @@ impl<'a> TileWork<'a> {
     fn new(pass: &TilePass<'a>, [number, sub_draw]: [u32; 2], tile: u32) -> Self {
         let chunk = &pass.chunks[number as usize];
         let plan = &pass.plans[sub_draw as usize];
-        let (x, y) = pass.grid.tile_origin(tile);
-        let shape = TileShape {
-            x: x.cast_signed(),
-            y: y.cast_signed(),
-            log2: pass.grid.tile_log2(),
-        };
+        let shape = pass.tile_shape(tile);
         let rect = shape.local(&plan.rect);
         Self {
             level: pass.level,

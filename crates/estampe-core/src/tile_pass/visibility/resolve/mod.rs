@@ -166,7 +166,7 @@ fn clear_others<const N: usize>(
         }
     }
     let waiting = pass.clear.first_waiting()..MAX_TARGETS;
-    pass.clear.colors(pass.level, job, waiting, Some(&others));
+    pass.clear.colors(pass, job, waiting, Some(&others));
 }
 
 /// A run being resolved.
