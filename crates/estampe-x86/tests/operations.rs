@@ -151,6 +151,8 @@ fn test_operation(
         Given::Varying,
         Given::Constant(0x4020_0000),
         Given::Constant(37),
+        Given::Constant(64),
+        Given::Constant(1 << 31),
         Given::Constant(0),
         Given::Uniform,
         Given::UniformFirst,
@@ -297,6 +299,61 @@ fn fused_products() {
         &|builder, values| builder.op1(Op::Fma([values[0]; 3])),
         &|[a, ..]| fma([a; 3]),
     );
+}
+
+/// 1 ÷ √x has instructions of its own. Besides random numbers: at both ends of the significands of
+/// x and of √x, of every exponent, that is around all powers of two.
+#[test]
+fn inverse_square_roots() {
+    let build = |builder: &mut Builder, values: &[Value]| {
+        let one = builder.float(1.0);
+        let root = builder.unary(Unary::FSqrt, values[0]);
+        builder.binary(Binary::FDiv, one, root)
+    };
+    let expected = |x: u32| (1.0 / f32::from_bits(x).sqrt()).to_bits();
+    test_operation("inverse square root", 1, true, &build, &|[x, ..]| {
+        expected(x)
+    });
+    let random = &mut fastrand::Rng::with_seed(3);
+    let mut words: Vec<u32> = (0..0x200_u32)
+        .flat_map(|exponent| {
+            (0..16).map(move |near| (exponent << 23).wrapping_add(near).wrapping_sub(8))
+        })
+        .chain(std::iter::repeat_with(|| random.u32(..)).take(1 << 20))
+        .collect();
+    words.resize(words.len().next_multiple_of(PACKETS * 16), 0);
+    for isa in isas() {
+        let mut builder = Builder::new(Stage::Vertex);
+        let x = builder.input(Input::Varying(0));
+        let result = build(&mut builder, &[x]);
+        let tree = builder.finish(vec![(Output::Varying(0), result)]);
+        let code = Code::compile(&Kernel::from_tree(&tree), isa, Tier::Optimised).unwrap();
+        let decoder =
+            iced_x86::Decoder::new(64, code.instructions(), iced_x86::DecoderOptions::NONE);
+        let divides = |one: iced_x86::Instruction| one.mnemonic() == iced_x86::Mnemonic::Vdivps;
+        assert_eq!(
+            decoder.into_iter().any(divides),
+            isa == Isa::Avx2,
+            "{isa:?}"
+        );
+        for words in words.chunks_exact(PACKETS * 16) {
+            let mut inputs = vec![Packet([0; 16]); PACKETS * 3];
+            for (packet, words) in inputs.iter_mut().step_by(3).zip(words.as_chunks().0) {
+                packet.0 = *words;
+            }
+            let found = run(&tree, (isa, Tier::Optimised), &inputs);
+            let found = found.iter().flat_map(|packet| packet.0);
+            for (found, &x) in found.zip(words) {
+                let wanted = expected(x);
+                let both_nan =
+                    [found, wanted].map(|word| f32::from_bits(word).is_nan()) == [true; 2];
+                assert!(
+                    both_nan || found == wanted,
+                    "{isa:?}: of {x:x} {found:x}, not {wanted:x}"
+                );
+            }
+        }
+    }
 }
 
 #[test]

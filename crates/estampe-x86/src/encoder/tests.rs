@@ -4,7 +4,9 @@ use super::element::{Arithmetic, Element};
 use super::scalar::Width;
 use super::vector_op::{self, ALL, Tuple};
 use super::{Address, Assembler, Base, Condition, Gpr, Length, Rm, VectorInstruction, VectorOp};
-use iced_x86::{Decoder, DecoderOptions, Instruction, MemorySize, Mnemonic, OpKind, Register};
+use iced_x86::{
+    Decoder, DecoderOptions, Instruction, MemorySize, Mnemonic, OpKind, Register, RoundingControl,
+};
 
 fn decode(bytes: &[u8]) -> Instruction {
     let instruction = Decoder::with_ip(64, bytes, 0x1000, DecoderOptions::NONE).decode();
@@ -51,6 +53,9 @@ fn limits(op: &VectorOp, is_evex: bool) -> [u8; 3] {
 
 fn forms(op: &VectorOp) -> Vec<(bool, Length)> {
     let mut forms = Vec::new();
+    if op.rounds_up {
+        return vec![(true, Length::L512)];
+    }
     if op.vex_w.is_some() {
         forms.extend([(false, Length::L128), (false, Length::L256)]);
     }
@@ -116,6 +121,12 @@ fn vector_instructions_between_registers() {
                     masked.number()
                 };
                 assert_eq!(number, usize::from(mask), "{name}");
+                let rounding = if op.rounds_up {
+                    RoundingControl::RoundUp
+                } else {
+                    RoundingControl::None
+                };
+                assert_eq!(decoded.rounding_control(), rounding, "{name}");
             }
         }
     }
@@ -130,6 +141,7 @@ fn vector_instructions_with_memory() {
         &v::F64_FROM_S32,
         &v::F64_FROM_U32,
         &v::F32_FROM_F16,
+        &v::FMA_F_UP,
         &v::F16_FROM_F32,
         &v::WORDS_FROM_HALVES,
         &v::HALVES_FROM_WORDS,

@@ -253,6 +253,9 @@ pub(super) fn vector(one: &VectorInstruction) -> Text {
         Some(immediate) => operands.push(format!("{immediate:#x}")),
         None => {}
     }
+    if op.rounds_up {
+        operands.push("{ru-sae}".to_owned());
+    }
     let name = if is_evex { op.evex_name } else { op.name };
     instruction(format!("{name} {}", operands.join(", ")))
 }

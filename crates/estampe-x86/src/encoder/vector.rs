@@ -100,10 +100,17 @@ impl Assembler {
         let VectorInstruction { op, vvvv, .. } = *instruction;
         debug_assert!(op.evex_w.is_some(), "{} has no EVEX form", op.name);
         let (x, b) = extension(instruction.rm);
-        let (is_broadcast, index) = match instruction.rm {
-            Rm::Register(_) => (false, None),
+        // Between registers the broadcast bit sets the rounding, which stands in the place of the
+        // length: 2 is up, as is that of 512 bits.
+        let (bit_b, index) = match instruction.rm {
+            Rm::Register(_) => (op.rounds_up, None),
             Rm::Memory(address) => (address.is_broadcast, address.index),
         };
+        debug_assert!(
+            !op.rounds_up || (instruction.length, index) == (Length::L512, None),
+            "{} rounds 512 bits in registers",
+            op.name
+        );
         // The fifth bit of an index of a gather stands in the place of that of vvvv.
         let v_high = index.map_or(vvvv >> 4 & 1, |index| index >> 4 & 1);
         let first = (reg >> 3 & 1 ^ 1) << 7 | (x & 1 ^ 1) << 6 | (b & 1 ^ 1) << 5;
@@ -115,7 +122,7 @@ impl Assembler {
             (None, Length::L256) => 1,
             (None, Length::L512) => 2,
         };
-        let third = length << 5 | u8::from(is_broadcast) << 4 | (v_high ^ 1) << 3;
+        let third = length << 5 | u8::from(bit_b) << 4 | (v_high ^ 1) << 3;
         self.bytes
             .extend([0x62, first, second, third | instruction.mask]);
     }

@@ -23,6 +23,9 @@ pub(crate) struct VectorOp {
     pub(crate) digit: Option<u8>,
     /// The L bit, of instructions on mask registers and of those with one length only.
     pub(crate) fixed_length: Option<bool>,
+    /// True if the result is rounded up, whatever the processor's mode: of vectors of 512 bits in
+    /// registers.
+    pub(crate) rounds_up: bool,
 }
 
 /// The size of a memory operand.
@@ -54,6 +57,7 @@ impl VectorOp {
             tuple: Tuple::Full(4),
             digit: None,
             fixed_length: None,
+            rounds_up: false,
         }
     }
 
@@ -89,6 +93,11 @@ impl VectorOp {
         self.vex_w = Some(true);
         self.fixed_length = Some(true);
         self.vex_only()
+    }
+
+    const fn rounding_up(mut self) -> Self {
+        self.rounds_up = true;
+        self.evex_only()
     }
 
     const fn digit(mut self, digit: u8) -> Self {
@@ -133,6 +142,10 @@ table! {
     SQRT_F = VectorOp::both("vsqrtps", NONE, 1, 0x51);
     ROUND_F = VectorOp::both("vroundps", P66, 3, 0x08).evex_name("vrndscaleps");
     FMA_F = VectorOp::both("vfmadd213ps", P66, 2, 0xA8);
+    FMA_F_UP = VectorOp::both("vfmadd213ps", P66, 2, 0xA8).rounding_up();
+    MINUS_FMA_F = VectorOp::both("vfnmadd213ps", P66, 2, 0xAC);
+    RECIPROCAL_ESTIMATE = VectorOp::both("vrcp14ps", P66, 2, 0x4C).evex_only();
+    FIX_UP_F = VectorOp::both("vfixupimmps", P66, 3, 0x54).evex_only();
     COMPARE_F = VectorOp::both("vcmpps", NONE, 1, 0xC2);
     // Integers and bits.
     ADD = VectorOp::both("vpaddd", P66, 1, 0xFE);
@@ -214,6 +227,7 @@ impl VectorOp {
     pub(crate) fn has_vvvv(&self) -> bool {
         let two: &[&Self] = &[
             &SQRT_F,
+            &RECIPROCAL_ESTIMATE,
             &ROUND_F,
             &COUNT_ONES,
             &LEADING_ZEROS,

@@ -29,6 +29,7 @@
 //! | [`lane_loops`] | stores and atomic operations |
 //! | [`masks`] | comparisons and operations on masks |
 //! | [`division`] | integer division |
+//! | [`inverse_root`] | reciprocals of square roots |
 //! | [`memory`] | inputs, outputs, buffers and arrays |
 //! | [`calls`] | calls of what code does not do itself |
 
@@ -37,6 +38,7 @@ mod division;
 pub(crate) mod expand;
 mod functions;
 mod halves;
+mod inverse_root;
 mod lane_loops;
 mod masks;
 mod memory;

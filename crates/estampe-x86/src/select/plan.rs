@@ -6,7 +6,7 @@
 
 use estampe_ir::interface::Input;
 use estampe_ir::lanes::{Kernel, Terminator};
-use estampe_ir::op::TextureQuery;
+use estampe_ir::op::{TextureQuery, Unary};
 use estampe_ir::{Op, Value};
 
 /// The blocks and values of a kernel.
@@ -28,6 +28,8 @@ pub(crate) struct Plan {
     /// Masks in which a quad has all of its lanes or none of those that run.
     has_whole_quads: Vec<bool>,
     constants: Vec<Option<u32>>,
+    /// Values that are square roots.
+    is_root: Vec<bool>,
 }
 
 impl Plan {
@@ -44,7 +46,13 @@ impl Plan {
             is_array_stored: vec![false; kernel.interface.locals.len()],
             has_whole_quads: vec![false; values],
             constants: vec![None; values],
+            is_root: vec![false; values],
         };
+        for (op, value) in kernel.blocks.iter().flat_map(|block| &block.ops) {
+            if matches!(op, Op::Unary(Unary::FSqrt, _)) {
+                plan.is_root[value.index()] = true;
+            }
+        }
         plan.reach(kernel);
         plan.need(kernel);
         plan.hoist(kernel);
@@ -100,6 +108,11 @@ impl Plan {
     /// The word that a value always is.
     pub(crate) fn constant(&self, value: Value) -> Option<u32> {
         self.constants[value.index()]
+    }
+
+    /// True if a value is a square root: normal, infinite, zero or not a number.
+    pub(crate) fn is_root(&self, value: Value) -> bool {
+        self.is_root[value.index()]
     }
 
     fn reach(&mut self, kernel: &Kernel) {

@@ -2,8 +2,9 @@
 //!
 //! Of the operations whose operands are ready, the one comes next from which the longest chain
 //! depends: divisions and square roots start early, and others fill the time. If more values live
-//! than there are registers, the operation that ends most of them comes next. Operations that touch
-//! memory which the kernel changes keep their order.
+//! than there are registers, the operation that ends most of them comes next. That mixes sums that
+//! do not depend on each other; where they live in registers one after the other, as they are
+//! written, they stay so. Operations that touch memory which the kernel changes keep their order.
 //!
 //! Accesses to textures that need no other's result come together, because one call serves them:
 //! first what they need, then they themselves, then the rest, of which few values live across the
@@ -102,7 +103,15 @@ impl<'a> Scheduler<'a> {
     pub(super) fn by_latency(&mut self, at: usize) -> Vec<usize> {
         let nodes = self.as_written(at);
         let mut list = List::new(self, at, &nodes);
-        let order = list.order(self);
+        let start = (list.uses_left.clone(), list.waits.clone(), list.live);
+        let (order, most_live) = list.order(self, Priority::Height);
+        if most_live > self.limit() {
+            (list.uses_left, list.waits, list.live) = start;
+            let (written, most_live) = list.order(self, Priority::Written);
+            if most_live <= self.limit() {
+                return written.into_iter().map(|node| nodes[node]).collect();
+            }
+        }
         order.into_iter().map(|node| nodes[node]).collect()
     }
 
@@ -164,6 +173,15 @@ fn turn(is_access: bool, after: u32) -> u32 {
 /// True if accesses to textures have this turn.
 fn is_of_accesses(turn: u32) -> bool {
     turn >= 2 && turn.is_multiple_of(2)
+}
+
+/// Which of the operations that are ready, and of one turn, comes next.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Priority {
+    /// The one from which the longest chain depends.
+    Height,
+    /// The one that is written first.
+    Written,
 }
 
 /// The operations of a block.
@@ -316,13 +334,21 @@ impl List {
         i64::try_from(ends.count()).unwrap_or(0) - i64::from(self.gives[node])
     }
 
-    fn order(&mut self, scheduler: &Scheduler<'_>) -> Vec<usize> {
+    /// The operations in order, and the most values that live at once.
+    fn order(&mut self, scheduler: &Scheduler<'_>, priority: Priority) -> (Vec<usize>, usize) {
         let count = self.waits.len();
         let limit = scheduler.limit();
         let mut order = Vec::with_capacity(count);
+        let mut most_live = self.live;
         // Operations whose operands are ready, the highest last; of equal ones the earliest last.
         let mut ready: BTreeSet<(u32, u32, Reverse<usize>)> = BTreeSet::new();
-        let key = |list: &Self, node: usize| (list.turns[node], list.heights[node], Reverse(node));
+        let key = |list: &Self, node: usize| {
+            let height = match priority {
+                Priority::Height => list.heights[node],
+                Priority::Written => 0,
+            };
+            (list.turns[node], height, Reverse(node))
+        };
         // Operations whose operands are computed, with the cycle in which they are ready.
         let mut pending: BinaryHeap<Reverse<(u32, usize)>> = BinaryHeap::new();
         let mut ready_at = vec![0_u32; count];
@@ -338,14 +364,14 @@ impl List {
                 ready.last().is_none_or(|(turn, ..)| is_of_accesses(*turn))
             };
             while let Some(&Reverse((at, node))) = pending.peek()
-                && (at <= cycle || waits(&ready))
+                && (at <= cycle || waits(&ready) || priority == Priority::Written)
             {
                 cycle = cycle.max(at);
                 pending.pop();
                 ready.insert(key(self, node));
             }
             let Some(&next) = ready.last() else { break };
-            let best = if self.live < limit {
+            let best = if self.live < limit || priority == Priority::Written {
                 next
             } else {
                 let compared = ready.iter().rev().take(COMPARED);
@@ -358,6 +384,7 @@ impl List {
             let Reverse(node) = best.2;
             order.push(node);
             self.begin(node);
+            most_live = most_live.max(self.live);
             // More than one begins in a cycle, but counting so was measured to be no better.
             cycle += 1;
             let done = cycle + self.latencies[node];
@@ -370,7 +397,7 @@ impl List {
                 }
             }
         }
-        order
+        (order, most_live)
     }
 
     /// Counts the values that live once an operation began.

@@ -152,7 +152,18 @@ impl Selector<'_> {
 
     /// An operation of two words; `None` if it is served by a call.
     pub(super) fn binary(&mut self, kind: Binary, pair: [Value; 2], half: usize) -> Option<VReg> {
+        if self.is_inverse_root(kind, pair) {
+            return Some(self.inverse_of_root(pair[1], half));
+        }
         let [a, b] = pair;
+        if kind == Binary::Mul {
+            for [a, factor] in [[a, b], [b, a]] {
+                if let Some(bits) = self.shift_of_factor(factor) {
+                    let a = self.word_register(a, half);
+                    return Some(self.shift_by(&vector_op::SHL_BY, a, bits));
+                }
+            }
+        }
         let (op, commutes) = match kind {
             Binary::FAdd => (&vector_op::ADD_F, true),
             Binary::FSub => (&vector_op::SUB_F, false),
@@ -203,6 +214,13 @@ impl Selector<'_> {
         Some(self.two(op, first, second))
     }
 
+    /// The shift that is a product with a constant power of two: a cycle in place of ten.
+    fn shift_of_factor(&self, factor: Value) -> Option<u8> {
+        let factor = self.plan.constant(factor)?;
+        let bits = u8::try_from(factor.trailing_zeros()).ok()?;
+        factor.is_power_of_two().then_some(bits)
+    }
+
     /// A shift: by vectors, and by the same number in all lanes.
     fn shift(
         &mut self,
@@ -242,6 +260,11 @@ impl Selector<'_> {
         let a = self.word_register(a, half);
         let b = self.word_register(b, half);
         let c = self.word(c, half);
+        self.fma_of(&vector_op::FMA_F, [a, b], c)
+    }
+
+    /// An instruction of a fused product and sum, a · b + c.
+    pub(super) fn fma_of(&mut self, op: &'static VectorOp, [a, b]: [VReg; 2], c: Source) -> VReg {
         let result = self.function.register(VECTOR);
         // The first factor's register becomes the result.
         let mut operands = Operands::new()
@@ -249,6 +272,10 @@ impl Selector<'_> {
             .with(Role::Silent, Operand::reg_use(a))
             .with(Role::Vvvv, Operand::reg_use(b));
         let memory = match c {
+            Source::Register(c) if op.rounds_up => {
+                operands = operands.with(Role::Rm, Operand::reg_use(c));
+                None
+            }
             Source::Register(c) => {
                 operands = operands.with(Role::Rm, Operand::any_use(c));
                 None
@@ -260,7 +287,7 @@ impl Selector<'_> {
                 Some(memory)
             }
         };
-        self.push(&vector_op::FMA_F, (None, memory), &operands);
+        self.push(op, (None, memory), &operands);
         result
     }
 
