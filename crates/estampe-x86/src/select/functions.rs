@@ -74,8 +74,9 @@ impl Selector<'_> {
                         continue;
                     }
                     let registers = self.new_registers(parameter);
+                    let count = self.register_count(parameter);
                     let of_block = &mut self.function.blocks[position].parameters;
-                    of_block.extend(&registers[..self.halves]);
+                    of_block.extend(&registers[..count]);
                 }
             }
         }
@@ -185,7 +186,7 @@ impl Selector<'_> {
             if !self.plan.is_value_needed(parameter) {
                 continue;
             }
-            for half in 0..self.halves {
+            for half in 0..self.register_count(parameter) {
                 arguments.push(self.any_register(argument, half));
             }
         }
@@ -198,7 +199,7 @@ impl Selector<'_> {
     /// Ends a block with a branch.
     fn test(&mut self, mask: Value) {
         let mut tested = self.mask(mask, 0);
-        for half in 1..self.halves {
+        for half in 1..self.register_count(mask) {
             let other = self.mask(mask, half);
             tested = self.mask_or(tested, other);
         }

@@ -300,14 +300,26 @@ impl Selector<'_> {
         }
     }
 
+    /// The registers that a value takes: one for each half, or one for all if its lanes are all
+    /// the same. Two packets of a pass take each branch together, so that what is the same in all
+    /// lanes of one is so in both.
+    fn register_count(&self, value: Value) -> usize {
+        if self.plan.is_splat(value) {
+            1
+        } else {
+            self.halves
+        }
+    }
+
     fn new_registers(&mut self, value: Value) -> [VReg; 2] {
         let class = self.class_of(value);
-        let mut registers = [VReg::invalid(); 2];
-        for register in &mut registers[..self.halves] {
-            *register = self.function.register(class);
-        }
-        self.places[value.index()] = Place::Registers(registers);
-        registers
+        let first = self.function.register(class);
+        let second = match self.register_count(value) {
+            1 => first,
+            _ => self.function.register(class),
+        };
+        self.places[value.index()] = Place::Registers([first, second]);
+        [first, second]
     }
 
     /// Says in which register a half of a value is.
@@ -364,8 +376,7 @@ impl Selector<'_> {
                     let mask = self.mask(*a, half);
                     Some(self.quads(mask, false))
                 }
-                Op::Any(a) if half == 0 => Some(self.any(*a)),
-                Op::Any(_) => Some(self.any_register(first, 0)),
+                Op::Any(a) => Some(self.any(*a)),
                 Op::Input(at) | Op::InputMask(at) => Some(self.input(*at, half)),
                 Op::LoadLocal { array, index } => Some(self.load_local(*array, *index, half)),
                 Op::LoadBuffer { buffer, offset } => Some(self.load_buffer(*buffer, *offset, half)),
@@ -376,6 +387,12 @@ impl Selector<'_> {
                 return self.call(op, first);
             };
             self.define(first, half, register);
+            if self.plan.is_splat(first) {
+                for other in 1..self.halves {
+                    self.define(first, other, register);
+                }
+                break;
+            }
         }
         Ok(())
     }
