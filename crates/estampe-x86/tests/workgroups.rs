@@ -281,3 +281,122 @@ fn a_panic_ends_the_work_group() {
         assert_eq!(panic.downcast_ref::<&str>(), Some(&"no texture is here"));
     }
 }
+
+/// Loads near each other at a place that is the same in all lanes: inside, across the end, outside,
+/// and where numbers wrap.
+#[test]
+fn words_at_uniform_places_are_loaded_together() {
+    for place in [
+        0,
+        7,
+        1016,
+        1021,
+        1022,
+        1024,
+        5000,
+        u32::MAX - 2,
+        u32::MAX,
+        1 << 30,
+        1 << 31,
+    ] {
+        let text = format!(
+            "{INTERFACE}
+  uv2 = const 0
+  uv3 = const {place}
+  uv4 = const 1
+  uv5 = const 2
+  uv6 = const 7
+  v7 = add v0, v0
+  v8 = add v7, uv3
+  store_workgroup [v0], v8, m1
+  barrier
+  uv9 = load_workgroup [uv2]
+  uv10 = load_workgroup [uv9]
+  uv11 = add uv9, uv4
+  uv12 = load_workgroup [uv11]
+  uv13 = add uv5, uv9
+  uv14 = load_workgroup [uv13]
+  uv15 = add uv9, uv6
+  uv16 = load_workgroup [uv15]
+  uv17 = shl uv12, uv4
+  uv18 = xor uv10, uv17
+  uv19 = sub uv14, uv16
+  v20 = mul uv18, uv19
+  v21 = add v20, v0
+  return v21
+"
+        );
+        let (found, _) = agreed(&text, 17, 100);
+        let word = |at: u32| match at {
+            0..272 => (at * 2).wrapping_add(place),
+            _ => 0,
+        };
+        let place_read = word(0);
+        let [a, b, c, d] = [0, 1, 2, 7].map(|after| word(place_read.wrapping_add(after)));
+        let product = (a ^ (b << 1)).wrapping_mul(c.wrapping_sub(d));
+        let expected = (0..272_u32).map(|lane| product.wrapping_add(lane));
+        assert_eq!(found.unwrap(), expected.collect::<Vec<_>>(), "{place}");
+        let kernel = text::kernel(&text).unwrap();
+        for isa in Isa::ALL.into_iter().filter(|isa| isa.is_available()) {
+            // The place of the first load, and that of the four that follow.
+            let listing = Code::listing(&kernel, isa, Tier::Fast).unwrap();
+            assert_eq!(listing.matches("vmovd ").count(), 2, "{isa:?}");
+        }
+    }
+}
+
+/// The same in a buffer of 64 words, whose places are bytes.
+#[test]
+fn words_of_buffers_at_uniform_places_are_loaded_together() {
+    for place in [
+        0,
+        6,
+        28,
+        200,
+        243,
+        244,
+        252,
+        256,
+        u32::MAX - 3,
+        u32::MAX - 7,
+        1 << 30,
+        1 << 31,
+    ] {
+        let text = format!(
+            "{INTERFACE}
+  uv2 = const 0
+  uv3 = const {place}
+  uv4 = const 4
+  uv5 = const 8
+  uv6 = const 1
+  uv7 = const 2
+  v8 = mul v0, v0
+  v9 = add v8, uv3
+  v10 = shl v0, uv7
+  store_buffer 0 [v10], v9, m1
+  barrier
+  uv11 = load_buffer 0 [uv2]
+  uv12 = load_buffer 0 [uv11]
+  uv13 = add uv11, uv4
+  uv14 = load_buffer 0 [uv13]
+  uv15 = add uv5, uv11
+  uv16 = load_buffer 0 [uv15]
+  uv17 = shl uv14, uv6
+  uv18 = xor uv12, uv17
+  uv19 = mul uv18, uv16
+  v20 = add uv19, v0
+  return v20
+"
+        );
+        let (found, _) = agreed(&text, 17, 100);
+        let word = |at: u32| match at / 4 {
+            number @ 0..64 => (number * number).wrapping_add(place),
+            _ => 0,
+        };
+        let place_read = word(0);
+        let [a, b, c] = [0, 4, 8].map(|after| word(place_read.wrapping_add(after)));
+        let product = (a ^ (b << 1)).wrapping_mul(c);
+        let expected = (0..272_u32).map(|lane| product.wrapping_add(lane));
+        assert_eq!(found.unwrap(), expected.collect::<Vec<_>>(), "{place}");
+    }
+}

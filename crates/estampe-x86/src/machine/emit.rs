@@ -248,6 +248,7 @@ impl Emitter<'_> {
                 self.assembler.store_byte(address, gpr(temporary));
             }
             Instruction::LoadScalar { buffer, shift } => self.load_scalar((buffer, shift), found),
+            Instruction::LoadScalars(load) => self.scalars(load, found),
             Instruction::LoadStrided(load) => self.strided(load, found),
             Instruction::LoadQuadruple(load) => self.quadruple(load, found),
             Instruction::Call(at) => self.call(at),
@@ -391,26 +392,10 @@ impl Emitter<'_> {
         );
     }
 
-    fn load_scalar(&mut self, (buffer, shift): (u32, u8), found: &[Allocation]) {
+    fn load_scalar(&mut self, of: (u32, u8), found: &[Allocation]) {
         let [index, address, outside] = [2, 3, 4].map(|at| gpr(found[at]));
-        let buffer = displacement(self.frame.buffer(buffer));
-        // Outside of the buffer the word is read from a 0 in the frame.
-        self.assembler
-            .lea(outside, in_frame(displacement(self.frame.zero())));
         self.simple_lowest(index, found[1]);
-        if shift > 0 {
-            self.assembler.shr(index, shift);
-        }
-        self.assembler.load(Width::Qword, address, in_frame(buffer));
-        self.assembler.lea_element(address, address, index);
-        let words = in_frame(buffer + displacement(frame::BUFFER_WORDS));
-        self.assembler.cmp_memory(index, words);
-        self.assembler.cmov(Condition::NotBelow, address, outside);
-        self.simple(
-            &vector_op::BROADCAST,
-            number(found[0]),
-            Rm::Memory(Address::at(address, 0)),
-        );
+        self.scalar(of, [index, address, outside], found[0]);
     }
 
     fn simple_lowest(&mut self, to: Gpr, from: Allocation) {

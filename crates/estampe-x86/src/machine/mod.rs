@@ -14,6 +14,7 @@ pub(crate) mod emit;
 pub(crate) mod lane_loop;
 pub(crate) mod passes;
 pub(crate) mod quadruple;
+pub(crate) mod scalars;
 pub(crate) mod strided;
 
 use crate::Isa;
@@ -21,6 +22,7 @@ use crate::encoder::VectorOp;
 use lane_loop::LaneLoop;
 use quadruple::Quadruple;
 use regalloc2::{InstRange, Operand, PRegSet, RegClass, VReg};
+use scalars::Scalars;
 use strided::Strided;
 
 /// The class of general-purpose registers.
@@ -103,6 +105,9 @@ pub(crate) enum Instruction {
     /// A word of a buffer in all lanes, by its number in the lowest lane, which is shifted to the
     /// left: `[def, use, temporary, temporary, temporary]`.
     LoadScalar { buffer: u32, shift: u8 },
+    /// Words of a buffer near each other, each in all lanes, by a place in the lowest lane: `[def,
+    /// .., use, temporary, temporary, temporary, temporary]`.
+    LoadScalars(Scalars),
     /// Words of a buffer whose numbers have a stride: `[def, numbers, pointer, temporary,
     /// temporary, temporary mask]`, and with a stride over 1 a temporary vector.
     LoadStrided(Strided),

@@ -89,6 +89,7 @@ impl Selector<'_> {
                 Part::Block(at) => {
                     let of_kernel = &kernel.blocks[at];
                     self.find_groups(at);
+                    self.find_uniform_loads(at);
                     let ops = schedules[at].iter().map(|&index| &of_kernel.ops[index]);
                     let ops: Vec<&(Op, Value)> = ops.collect();
                     let mut left = &ops[..];

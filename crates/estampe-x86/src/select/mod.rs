@@ -20,6 +20,7 @@
 //! | [`expand`] | nothing: replaces functions by operations |
 //! | [`plan`] | nothing: finds what is needed, uniform or hoisted |
 //! | [`quadruples`] | loads of the components of vectors |
+//! | [`uniform_loads`] | loads at places that are the same in all lanes |
 //! | [`strides`] | nothing: finds what grows by the same number from lane to lane |
 //! | [`schedule`] | nothing: orders the operations of a block |
 //! | [`functions`] | blocks, edges, jumps and branches |
@@ -47,6 +48,7 @@ mod plan;
 mod quadruples;
 mod schedule;
 mod strides;
+mod uniform_loads;
 mod words;
 
 use crate::encoder::Assembler;
@@ -63,6 +65,7 @@ use regalloc2::{RegClass, VReg};
 use std::collections::HashMap;
 use std::ops::Range;
 use strides::Strides;
+use uniform_loads::UniformGroups;
 
 /// What selection makes of a kernel.
 #[derive(Debug)]
@@ -123,6 +126,11 @@ struct Selector<'a> {
     tables: Vec<Option<u32>>,
     /// The loads of this block that are done together, by their results; `None` once they are done.
     groups: HashMap<Value, Option<Group>>,
+    uniform: UniformGroups,
+    /// What is added, by its sum.
+    sums: HashMap<Value, [Value; 2]>,
+    /// How often each value is used.
+    use_counts: Vec<u32>,
 }
 
 /// Selects instructions for a kernel.
@@ -166,7 +174,11 @@ pub(crate) fn select(
         buffer_pointers: vec![None; kernel.interface.buffers.len() + 1],
         tables: vec![None; kernel.interface.locals.len()],
         groups: HashMap::new(),
+        uniform: UniformGroups::default(),
+        sums: HashMap::new(),
+        use_counts: vec![0; kernel.values.len()],
     };
+    selector.count_uses();
     let prepare = selector.prepare()?;
     selector.halves = estampe_simd::LANES / isa.lanes();
     let packet = selector.packet(tier)?;
@@ -346,7 +358,12 @@ impl Selector<'_> {
         if self.effect_on_memory(op, first) {
             return Ok(());
         }
-        if matches!(op, Op::LoadBuffer { .. } | Op::LoadWorkgroup(_)) && self.group(first) {
+        if matches!(op, Op::LoadBuffer { .. } | Op::LoadWorkgroup(_))
+            && (self.group(first) || self.uniform_group(first))
+        {
+            return Ok(());
+        }
+        if self.uniform.dropped.contains(&first) {
             return Ok(());
         }
         if matches!(op, Op::Barrier) {

@@ -11,7 +11,7 @@ use crate::Isa;
 use crate::machine::quadruple::Quadruple;
 use crate::machine::{GPR, Instruction, MASK, VECTOR};
 use estampe_ir::lanes::BasicBlock;
-use estampe_ir::op::{Binary, Memory as Shared};
+use estampe_ir::op::Memory as Shared;
 use estampe_ir::{Op, Value};
 use regalloc2::Operand;
 use std::collections::HashMap;
@@ -29,7 +29,7 @@ pub(super) struct Group {
 /// The groups of a block by the results of their loads.
 pub(super) fn groups_of(
     block: &BasicBlock,
-    defined_by: impl Fn(Value) -> Option<(Binary, [Value; 2])>,
+    sums: &HashMap<Value, [Value; 2]>,
     (plan, strides): (&Plan, &Strides),
 ) -> HashMap<Value, Option<Group>> {
     let (mut open, mut done): (Vec<Group>, Vec<Group>) = (Vec::new(), Vec::new());
@@ -49,8 +49,8 @@ pub(super) fn groups_of(
         if is_done || stride != Some(word * 4) {
             continue;
         }
-        let added = match defined_by(index) {
-            Some((Binary::Add, [a, b])) => match [a, b].map(|value| plan.constant(value)) {
+        let added = match sums.get(&index) {
+            Some(&[a, b]) => match [a, b].map(|value| plan.constant(value)) {
                 [_, Some(words)] => Some((a, words)),
                 [Some(words), _] => Some((b, words)),
                 _ => None,
@@ -95,16 +95,7 @@ impl Selector<'_> {
             return;
         }
         let block = &self.kernel.blocks[at];
-        let mut sums: HashMap<Value, (Binary, [Value; 2])> = HashMap::new();
-        for block in &self.kernel.blocks {
-            for (op, result) in &block.ops {
-                if let Op::Binary(kind @ Binary::Add, pair) = op {
-                    sums.insert(*result, (*kind, *pair));
-                }
-            }
-        }
-        let defined_by = |value: Value| sums.get(&value).copied();
-        self.groups = groups_of(block, defined_by, (&self.plan, &self.strides));
+        self.groups = groups_of(block, &self.sums, (&self.plan, &self.strides));
     }
 
     /// Loads all words of the group of a load, if it has one and they are not there yet; returns
