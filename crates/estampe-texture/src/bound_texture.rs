@@ -1,14 +1,16 @@
 //! [`BoundTexture`]: a texture that a draw binds without a sampler.
 
-use crate::{SampledTexture, TexelView};
+use crate::{SampledTexture, TexelView, TexelViewDescriptor, texture_from_depth};
 use estampe_simd::Level;
 use estampe_types::{SamplerDescriptor, ShadowMap};
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 
 /// A texture as a draw binds it, with the samplers that its shaders use with it.
 #[derive(Debug)]
 pub struct BoundTexture {
     view: TexelView,
+    /// False if it has a shape alone.
+    has_texels: bool,
     depths: Option<ShadowMap>,
     level: Level,
     /// The first of the samplers that were used.
@@ -32,10 +34,20 @@ impl BoundTexture {
     pub fn new(view: TexelView, depths: Option<ShadowMap>, level: Level) -> Self {
         Self {
             view,
+            has_texels: true,
             depths,
             level,
             first: OnceLock::new(),
         }
+    }
+
+    /// Binds a depth texture that shaders only compare, or ask for its size: `view` need not have
+    /// texels. Where a sampler reads them all the same, they are taken from the depths.
+    #[must_use]
+    pub fn of_depths(view: TexelView, depths: ShadowMap, level: Level) -> Self {
+        let mut bound = Self::new(view, Some(depths), level);
+        bound.has_texels = false;
+        bound
     }
 
     /// The view.
@@ -71,19 +83,30 @@ impl BoundTexture {
     /// The texture with a sampler.
     #[cold]
     fn with(&self, sampler: SamplerDescriptor) -> Sampled {
-        let made = SampledTexture::new(self.view.clone(), sampler).ok();
-        let made = made.map(|made| {
-            let made = made.at_level(self.level);
-            match &self.depths {
-                Some(depths) => made.with_depths(depths.clone()),
-                None => made,
-            }
-        });
+        let mut texture = self.sampled_view(self.view.clone(), sampler);
+        if let (Some(depths), Some(made), false) = (&self.depths, &texture, self.has_texels)
+            && made.depths().is_none()
+        {
+            let view = texture_from_depth(depths)
+                .map(|data| TexelView::new(Arc::new(data), &TexelViewDescriptor::default()));
+            let view = view.and_then(|view| view).ok();
+            texture = view.and_then(|view| self.sampled_view(view, sampler));
+        }
         Sampled {
             sampler,
-            texture: made,
+            texture,
             next: OnceLock::new(),
         }
+    }
+
+    fn sampled_view(&self, view: TexelView, sampler: SamplerDescriptor) -> Option<SampledTexture> {
+        let made = SampledTexture::new(view, sampler)
+            .ok()?
+            .at_level(self.level);
+        Some(match &self.depths {
+            Some(depths) => made.with_depths(depths.clone()),
+            None => made,
+        })
     }
 }
 

@@ -198,6 +198,17 @@ impl RenderPipeline {
         self.interface().stores
     }
 
+    /// True if a shader may read texels of the texture at this place other than to compare them:
+    /// see [`Program::reads_texels`].
+    #[must_use]
+    pub fn reads_texels(&self, group: u32, binding: u32) -> bool {
+        let descriptor = &self.inner.descriptor;
+        let has_other_programs = descriptor.vertex_program.is_some()
+            || descriptor.tessellation.is_some()
+            || descriptor.geometry.is_some();
+        has_other_programs || descriptor.program.reads_texels(group, binding)
+    }
+
     pub(crate) fn program(&self) -> &dyn Program {
         &*self.inner.descriptor.program
     }

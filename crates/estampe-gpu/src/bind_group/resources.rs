@@ -11,11 +11,13 @@ use std::sync::Arc;
 
 impl BindGroup {
     /// The resources as they are now, as programs read them. What shaders store to is shared
-    /// through `textures` and `buffers`.
+    /// through `textures` and `buffers`. `reads_texels` says of which bindings shaders read texels
+    /// other than to compare them.
     pub(crate) fn resources(
         &self,
         context: &Context,
         (textures, buffers): (&mut StoredTextures, &StoredBuffers<'_>),
+        reads_texels: impl Fn(u32) -> bool,
     ) -> Result<Arc<BoundResources>, TextureError> {
         let layout = &self.inner.layout;
         let entries = self.inner.entries.iter().map(|(binding, resource)| {
@@ -31,9 +33,13 @@ impl BindGroup {
                         BoundResource::StorageTexture(textures.get(context, view)?)
                     }
                     _ => {
-                        let depths = newest_depths(context, view)?;
-                        let bound =
-                            BoundTexture::new(view.texels(context)?, depths, context.level());
+                        let level = context.level();
+                        let bound = match newest_depths(context, view)? {
+                            Some(depths) if !reads_texels(*binding) => {
+                                BoundTexture::of_depths(view.shape()?, depths, level)
+                            }
+                            depths => BoundTexture::new(view.texels(context)?, depths, level),
+                        };
                         BoundResource::Other(OtherResource(Arc::new(bound)))
                     }
                 },

@@ -39,7 +39,7 @@ fn run(device: &Device, dispatch: &Dispatch<'_>) -> Result<(), DispatchErrorKind
     let buffers = StoredBuffers::in_place(&groups)?;
     let mut resources: Vec<(usize, Arc<BoundResources>)> = Vec::new();
     for group in &groups {
-        let bound = group.resources(device.context(), (&mut textures, &buffers));
+        let bound = group.resources(device.context(), (&mut textures, &buffers), |_| true);
         let bound = bound.map_err(|error| DispatchErrorKind::Texture {
             group: group.name(),
             error,

@@ -5,17 +5,22 @@ use crate::bind_group::bound;
 use crate::buffer::StoredBuffers;
 use crate::immediates::immediate_words;
 use crate::texture::StoredTextures;
-use crate::{BindGroup, BufferSlice, Context};
+use crate::{BindGroup, BufferSlice, Context, RenderPipeline};
 use estampe_types::bindings::BoundResources;
 use estampe_types::{Bindings, BufferData};
 use std::collections::BTreeMap;
 use std::ops::Range;
 use std::sync::Arc;
 
+/// The pipelines of a bind group that are told apart: of one with more, texels may be read.
+const MOST_USES: usize = 16;
+
 /// The bind groups of a pass, each once.
 #[derive(Debug)]
 pub(super) struct Groups<'a> {
     pub(super) distinct: Vec<&'a BindGroup>,
+    /// The pipelines that each is used with, and its number there.
+    uses: Vec<Vec<(&'a RenderPipeline, u32)>>,
     /// The index of each by its id.
     indices: BTreeMap<usize, usize>,
 }
@@ -24,20 +29,36 @@ impl<'a> Groups<'a> {
     pub(super) fn of(draws: &[Draw<'a>]) -> Self {
         let mut groups = Self {
             distinct: Vec::new(),
+            uses: Vec::new(),
             indices: BTreeMap::new(),
         };
-        let mut before: &[BindGroup] = &[];
+        let mut before: Option<&Draw<'a>> = None;
         for draw in draws {
-            if !std::ptr::eq(draw.bind_groups, before) {
-                for group in draw.bind_groups {
-                    if groups.index_of(group).is_none() {
-                        let index = groups.distinct.len();
-                        groups.indices.insert(group.id(), index);
-                        groups.distinct.push(group);
-                    }
-                }
-                before = draw.bind_groups;
+            let is_as_before = before.is_some_and(|before| {
+                std::ptr::eq(draw.bind_groups, before.bind_groups)
+                    && std::ptr::eq(draw.pipeline, before.pipeline)
+            });
+            if is_as_before {
+                continue;
             }
+            for (group, number) in draw.bind_groups.iter().zip(0..) {
+                let index = groups.index_of(group).unwrap_or_else(|| {
+                    let index = groups.distinct.len();
+                    groups.indices.insert(group.id(), index);
+                    groups.distinct.push(group);
+                    groups.uses.push(Vec::new());
+                    index
+                });
+                let is_known = |used: &(&RenderPipeline, u32)| {
+                    std::ptr::eq(used.0, draw.pipeline) && used.1 == number
+                };
+                // Draws with the same pipeline follow each other, mostly.
+                let uses = &mut groups.uses[index];
+                if uses.len() <= MOST_USES && !uses.iter().rev().any(is_known) {
+                    uses.push((draw.pipeline, number));
+                }
+            }
+            before = Some(draw);
         }
         groups
     }
@@ -51,8 +72,15 @@ impl<'a> Groups<'a> {
         context: &Context,
         (textures, buffers): (&mut StoredTextures, &StoredBuffers<'_>),
     ) -> Result<Vec<Arc<BoundResources>>, PassErrorKind> {
-        let resources = self.distinct.iter().map(|group| {
-            let resources = group.resources(context, (&mut *textures, buffers));
+        let groups = self.distinct.iter().zip(&self.uses);
+        let resources = groups.map(|(group, uses)| {
+            let reads_texels = |binding| {
+                let mut uses = uses.iter();
+                uses.len() > MOST_USES
+                    || uses.any(|(pipeline, number)| pipeline.reads_texels(*number, binding))
+            };
+            let stores = (&mut *textures, buffers);
+            let resources = group.resources(context, stores, reads_texels);
             resources.map_err(|error| PassErrorKind::Texture {
                 attachment: group.name(),
                 error,

@@ -222,9 +222,7 @@ impl TextureView {
 
     /// Checks that a sampler can sample the view.
     pub(crate) fn check_sampler(&self, sampler: &Sampler) -> Result<(), TextureError> {
-        let shape = self.texture.descriptor().without_texels();
-        let view = TexelView::new(shape, &self.of_texels())?;
-        SampledTexture::new(view, *sampler.descriptor)?;
+        SampledTexture::new(self.shape()?, *sampler.descriptor)?;
         Ok(())
     }
 
@@ -237,6 +235,12 @@ impl TextureView {
             array_layer_count: Some(self.layers[1]),
             aspect: self.aspect,
         }
+    }
+
+    /// The view without texels, in the texture's own format.
+    pub(crate) fn shape(&self) -> Result<TexelView, TextureError> {
+        let shape = self.texture.descriptor().without_texels();
+        Ok(TexelView::new(shape, &self.of_texels())?)
     }
 
     /// The texels as they are now, as shaders read them.

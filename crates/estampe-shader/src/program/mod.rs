@@ -21,6 +21,7 @@ pub use compute::{MAX_INVOCATIONS, TextCompute};
 pub use link::{LinkError, VaryingSlot};
 
 use batch::{Widths, with_fragments, with_vertices};
+use estampe_ir::interface::TextureSlot;
 use estampe_ir::tree::{Tree, passes};
 use estampe_simd::Level;
 use estampe_types::shader::StoppedBatches;
@@ -155,6 +156,13 @@ impl Program for TextProgram {
 
     fn stopped_batches(&self) -> Option<&StoppedBatches> {
         Some(&self.stopped)
+    }
+
+    fn reads_texels(&self, group: u32, binding: u32) -> bool {
+        let stages = std::iter::once(&self.vertex).chain(&self.fragment);
+        stages
+            .into_iter()
+            .any(|stage| stage.reads_texels(TextureSlot { group, binding }))
     }
 
     fn vertex_packets(&self) -> usize {

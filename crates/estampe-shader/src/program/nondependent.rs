@@ -134,6 +134,12 @@ impl Reads {
         self.of_read.len()
     }
 
+    /// True if one of them is of the texture at this position in the interface.
+    pub(super) fn are_of(&self, texture: u32) -> bool {
+        let mut textures = self.groups.iter().flat_map(|group| &group.textures);
+        textures.any(|[of, _]| *of == texture)
+    }
+
     /// Where a component of a read is among the texels of so many packets: its first packet, and
     /// the step to the next.
     pub(super) fn place(&self, read: u32, component: u32, packets: usize) -> (usize, usize) {

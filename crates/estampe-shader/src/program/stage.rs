@@ -5,9 +5,11 @@ use super::buffers::BoundBuffers;
 use super::machine::MachineCode;
 use super::nondependent::Reads;
 use super::textures::BoundTextures;
-use estampe_ir::interface::Interface;
+use estampe_ir::Op;
+use estampe_ir::interface::{Interface, TextureSlot};
 use estampe_ir::interpreter::{Buffer, Code, InputData, OutputData, Run, Scratch, Stopped};
 use estampe_ir::lanes::Kernel;
+use estampe_ir::op::TextureQuery;
 use estampe_ir::tree::Tree;
 use estampe_simd::Level;
 use estampe_types::Bindings;
@@ -86,6 +88,23 @@ impl Stage {
             textures, samplers, ..
         } = self.interface();
         BoundTextures::new(bindings, textures, samplers)
+    }
+
+    /// True if texels of a texture are read other than by comparisons without an offset.
+    pub(super) fn reads_texels(&self, slot: TextureSlot) -> bool {
+        let slots = self.interface().textures.iter();
+        let at = slots
+            .zip(0_u32..)
+            .find_map(|(one, at)| (*one == slot).then_some(at));
+        let is_read = |op: &Op| match op {
+            Op::Texture(op) if Some(op.texture) == at => {
+                let is_compared = op.query == TextureQuery::SampleCompare && op.offset == [0; 3];
+                !is_compared && !op.query.is_of_shape()
+            }
+            _ => false,
+        };
+        let mut ops = self.kernel.blocks.iter().flat_map(|block| &block.ops);
+        ops.any(|(op, _)| is_read(op)) || at.is_some_and(|at| self.reads.are_of(at))
     }
 
     pub(super) fn run(

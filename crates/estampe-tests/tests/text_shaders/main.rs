@@ -12,6 +12,7 @@ mod immediates_compute;
 mod integer_targets;
 mod peers;
 mod picture;
+mod shadow_maps;
 mod spirv;
 mod subgroups;
 

@@ -220,6 +220,12 @@ pub trait Program: Send + Sync + std::fmt::Debug {
     fn stopped_batches(&self) -> Option<&StoppedBatches> {
         None
     }
+    /// True if a shader may read texels of the texture at this place other than to compare them
+    /// with a reference, as a shadow map is read. If none does, depths that a pass has just drawn
+    /// need not be brought into rows. Shaders in Rust do not say.
+    fn reads_texels(&self, _group: u32, _binding: u32) -> bool {
+        true
+    }
     /// The packets of vertices that a call of [`Self::run_vertices`] is best given, 1 to 8. Few, as
     /// fetching and storing wait for memory while programs compute: of a million triangles' half a
     /// million vertices, with 2, 4, 8 and 16 packets, geometry took 9.6, 9.9, 10.5 and 11.6 ms of
