@@ -42,6 +42,10 @@ pub struct Statistics {
     /// Fragments of four samples each that filled packets pixel by pixel.
     #[doc(hidden)]
     pub fragments_by_pixels: u64,
+    /// Quads that were shaded in packets together with those of other triangles of a run. They
+    /// depend on the SIMD level.
+    #[doc(hidden)]
+    pub quads_across_triangles: u64,
     /// Covered samples of small triangles that were tested as lists. They depend on the SIMD level.
     #[doc(hidden)]
     pub small_triangle_pixels: u64,
@@ -146,6 +150,7 @@ impl std::ops::AddAssign for Statistics {
         self.triangles_gathered += other.triangles_gathered;
         self.packets_joined += other.packets_joined;
         self.fragments_by_pixels += other.fragments_by_pixels;
+        self.quads_across_triangles += other.quads_across_triangles;
         self.visibility_runs += other.visibility_runs;
         self.paths += other.paths;
         self.groups_of_geometry += other.groups_of_geometry;

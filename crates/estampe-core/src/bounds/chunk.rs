@@ -46,7 +46,7 @@ struct ChunkPart {
     sub_draw: u32,
 }
 
-/// Packets of triangles whose memory outlives the chunk's contents: a packet is 1.3 KB, and to fill
+/// Packets of triangles whose memory outlives the chunk's contents: a packet is 1 KB, and to fill
 /// it with zeros before it is written would cost as much as writing it.
 ///
 /// Of packets that are taken apart nothing is kept but their numbers: they are made in one place,

@@ -2,8 +2,8 @@
 //!
 //! Geometry sets primitives up and writes them to [`chunk`]s, tiles read the chunks in order, and
 //! nothing flows back. A chunk holds [`primitives`] and their [`bins`]. [`pixel_rect`],
-//! [`sample_rect`], [`plane`] and [`transpose`] are the values and the one operation that both
-//! sides use. No module here names a stage.
+//! [`sample_rect`], [`plane`], [`triangle_edges`] and [`transpose`] are the values and operations
+//! that both sides use. No module here names a stage.
 
 pub(crate) mod pixel_rect;
 
@@ -14,6 +14,8 @@ pub(crate) mod plane;
 pub(crate) mod transpose;
 
 pub(crate) mod primitives;
+
+pub(crate) mod triangle_edges;
 
 pub(crate) mod bins;
 

@@ -4,7 +4,8 @@
 //! one by one.
 
 use super::plane::{Plane, PlanePacket};
-use estampe_simd::{Bytes, LANES, Lanes, SimdBase, SimdCvtFloat, f32x16, i32x16, u32x16};
+use super::triangle_edges::{doubled_area, doubled_area_of_small};
+use estampe_simd::{Bytes, LANES, Lanes, SimdBase, f32x16, i32x16, u32x16};
 
 /// A vertex of a sub-draw: an index into its shaded vertices or, with [`VertexRef::CLIPPED`] set,
 /// into the vertices of the chunk that clipping made.
@@ -25,16 +26,10 @@ pub(crate) struct TrianglePacket {
     pub(crate) y: [[i32; LANES]; 3],
     /// References to the vertices' varyings.
     pub(crate) vertex: [[VertexRef; LANES]; 3],
-    /// The vertex that flat varyings come from.
-    pub(crate) provoking: [VertexRef; LANES],
     /// 1/w at the three vertices.
     pub(crate) iw_at: [[f32; LANES]; 3],
     /// Depth.
     pub(crate) z: PlanePacket,
-    /// 1/w.
-    pub(crate) iw: PlanePacket,
-    /// 65536 ÷ doubled signed area in 1/256 pixel².
-    pub(crate) r: [f32; LANES],
     /// Bit by lane: the triangle is clockwise in sorted order (its doubled area is positive).
     pub(crate) clockwise: u16,
     /// Bit by lane: it faces the viewer.
@@ -43,22 +38,27 @@ pub(crate) struct TrianglePacket {
     pub(crate) equal_w: u16,
     /// The number of lanes in use.
     pub(crate) len: u16,
+    /// The vertex that flat varyings come from.
+    pub(crate) provoking: FlatVertices,
 }
+
+/// The vertices that flat varyings come from, in a cache line that is left alone if none is flat.
+#[derive(Debug, Clone, Copy)]
+#[repr(C, align(64))]
+pub(crate) struct FlatVertices(pub(crate) [VertexRef; LANES]);
 
 impl TrianglePacket {
     pub(crate) const EMPTY: Self = Self {
         x: [[0; LANES]; 3],
         y: [[0; LANES]; 3],
         vertex: [[VertexRef(0); LANES]; 3],
-        provoking: [VertexRef(0); LANES],
         iw_at: [[0.0; LANES]; 3],
         z: PlanePacket::ZERO,
-        iw: PlanePacket::ZERO,
-        r: [0.0; LANES],
         clockwise: 0,
         front: 0,
         equal_w: 0,
         len: 0,
+        provoking: FlatVertices([VertexRef(0); LANES]),
     };
 }
 
@@ -66,27 +66,7 @@ impl TrianglePacket {
     /// The triangle of a lane.
     #[inline(always)]
     pub(crate) fn triangle(&self, lane: usize) -> Triangle {
-        let Self {
-            x,
-            y,
-            vertex,
-            iw_at,
-            ..
-        } = self;
-        let is_in = |mask: u16| mask >> lane & 1 == 1;
-        Triangle {
-            x: [x[0][lane], x[1][lane], x[2][lane]],
-            y: [y[0][lane], y[1][lane], y[2][lane]],
-            vertex: [vertex[0][lane], vertex[1][lane], vertex[2][lane]],
-            provoking: self.provoking[lane],
-            iw_at: [iw_at[0][lane], iw_at[1][lane], iw_at[2][lane]],
-            z: self.z.lane(lane),
-            iw: self.iw.lane(lane),
-            r: self.r[lane],
-            clockwise: is_in(self.clockwise),
-            front: is_in(self.front),
-            equal_w: is_in(self.equal_w),
-        }
+        PackedTriangle::of_lane(self, lane).unpack()
     }
 }
 
@@ -114,50 +94,34 @@ impl TrianglePacket {
             self.vertex[corner][lane] = triangle.vertex[corner];
             self.iw_at[corner][lane] = triangle.iw_at[corner];
         }
-        self.provoking[lane] = triangle.provoking();
+        self.provoking.0[lane] = triangle.provoking();
         self.z.set(lane, triangle.z);
         self.front = self.front & !(1 << lane) | u16::from(triangle.is_front()) << lane;
     }
 
-    /// Computes what a packed triangle does not hold, of those that are smaller than 128 pixels.
+    /// Computes the masks that a packed triangle does not hold, of those that are smaller than 128
+    /// pixels.
     #[inline(always)]
     pub(crate) fn complete_small<S: Lanes>(&mut self, s: S) {
         let load = |lanes: &[i32; LANES]| i32x16::load_array_ref(s, lanes);
-        let [x0, y0] = [load(&self.x[0]), load(&self.y[0])];
-        let (x1, x2) = (load(&self.x[1]) - x0, load(&self.x[2]) - x0);
-        let (y1, y2) = (load(&self.y[1]) - y0, load(&self.y[2]) - y0);
-        let area = f32x16::float_from(x1 * y2 - x2 * y1);
-        let splat = |value| <f32x16<S> as SimdBase<S>>::splat(s, value);
-        let r = splat(65_536.0) / area;
-        r.store_array(&mut self.r);
-        self.clockwise = s.bits_of_mask(area.simd_gt(splat(0.0)));
+        let x = [load(&self.x[0]), load(&self.x[1]), load(&self.x[2])];
+        let y = [load(&self.y[0]), load(&self.y[1]), load(&self.y[2])];
+        let area = doubled_area_of_small([&x, &y]);
+        let zero = <i32x16<S> as SimdBase<S>>::splat(s, 0);
+        self.clockwise = s.bits_of_mask(area.simd_gt(zero));
         let bits = |corner: usize| -> u32x16<S> {
             f32x16::load_array_ref(s, &self.iw_at[corner]).bitcast()
         };
         let first = bits(0);
         let are_equal = first.simd_eq(bits(1)) & first.simd_eq(bits(2));
         self.equal_w = s.bits_of_mask(are_equal);
-        let scale = splat(1.0 / 256.0);
-        let (dx1, dx2) = (
-            f32x16::float_from(x1) * scale,
-            f32x16::float_from(x2) * scale,
-        );
-        let (dy1, dy2) = (
-            f32x16::float_from(y1) * scale,
-            f32x16::float_from(y2) * scale,
-        );
-        let iw = |corner: usize| f32x16::load_array_ref(s, &self.iw_at[corner]);
-        let (e1, e2) = (iw(1) - iw(0), iw(2) - iw(0));
-        iw(0).store_array(&mut self.iw.origin);
-        ((e1 * dy2 - e2 * dy1) * r).store_array(&mut self.iw.dx);
-        ((e2 * dx1 - e1 * dx2) * r).store_array(&mut self.iw.dy);
     }
 }
 
 /// A triangle that is drawn by itself, in order: a cache line.
 ///
-/// A lane's values are in 21 cache lines of its packet. What is computed again in a few operations,
-/// with the same bits, is not here.
+/// A lane's values are in sixteen cache lines of its packet. What is computed again in a few
+/// operations, with the same bits, is not here.
 #[derive(Debug, Clone, Copy)]
 #[repr(C, align(64))]
 pub(crate) struct PackedTriangle {
@@ -191,7 +155,7 @@ impl PackedTriangle {
             x: [x[0][lane], x[1][lane], x[2][lane]],
             y: [y[0][lane], y[1][lane], y[2][lane]],
             vertex: [vertex[0][lane], vertex[1][lane], vertex[2][lane]],
-            provoking: packet.provoking[lane].0 & !Self::FRONT
+            provoking: packet.provoking.0[lane].0 & !Self::FRONT
                 | if front { Self::FRONT } else { 0 },
             iw_at: [iw_at[0][lane], iw_at[1][lane], iw_at[2][lane]],
             z: packet.z.lane(lane),
@@ -220,7 +184,7 @@ impl PackedTriangle {
     pub(crate) fn unpack(&self) -> Triangle {
         let ([x0, x1, x2], [y0, y1, y2]) = (self.x, self.y);
         let (x1, x2, y1, y2) = (x1 - x0, x2 - x0, y1 - y0, y2 - y0);
-        let area = i64::from(x1) * i64::from(y2) - i64::from(x2) * i64::from(y1);
+        let area = doubled_area([self.x, self.y]);
         let r = 65_536.0 / area as f32;
         let pixels = |subpixels: i32| subpixels as f32 * (1.0 / 256.0);
         let [w0, w1, w2] = self.iw_at;
@@ -351,5 +315,7 @@ pub(crate) struct PointPrimitive {
 }
 
 // Geometry writes a packet for as few as two triangles and tiles read it again: its size is a cost
-// of every draw.
-const _: () = assert!(size_of::<TrianglePacket>() == 21 * 64);
+// of every draw. What a few operations give is not in it: reciprocal areas and planes of 1/w, which
+// took five lines: without them `small_tris` takes 0.88 of its time and `instances` 0.90, with
+// prefetching.
+const _: () = assert!(size_of::<TrianglePacket>() == 17 * 64);

@@ -6,7 +6,7 @@
 //! take an address for each word: on Zen 4 the four gathers of a position and a colour took longer
 //! than the rest of vertex fetch.
 
-use estampe_simd::{Bytes, LANES, Lanes, Packet, SimdBase, f32x16, u32x16};
+use estampe_simd::{Bytes, LANES, Lanes, Packet, Select, SimdBase, f32x16, u32x16};
 
 /// The four words of one record: 128 bits of a vector.
 type Record<S> = <u32x16<S> as SimdBase<S>>::Block;
@@ -23,6 +23,53 @@ pub(crate) fn components_of<S: Lanes>(s: S, rows: &[&[u32; 4]; LANES]) -> [u32x1
     let (x, z) = s.deinterleave_u32x16(xz_low, xz_high);
     let (y, w) = s.deinterleave_u32x16(yw_low, yw_high);
     [x, y, z, w]
+}
+
+/// Transposes sixteen records of three words.
+#[inline(always)]
+pub(crate) fn components_of_three<S: Lanes>(s: S, records: &[[u32; 3]; LANES]) -> [u32x16<S>; 3] {
+    // Loads of single words would be as many as the words; and vectors that are made of them have
+    // to wait for one another.
+    if const { S::IN_ONE_REGISTER } {
+        return [
+            component_of_three::<S, 0>(s, records),
+            component_of_three::<S, 1>(s, records),
+            component_of_three::<S, 2>(s, records),
+        ];
+    }
+    let mut components = [<u32x16<S> as SimdBase<S>>::splat(s, 0); 3];
+    for (component, to) in components.iter_mut().enumerate() {
+        let mut lanes = [0; LANES];
+        for (lane, record) in lanes.iter_mut().zip(records) {
+            *lane = record[component];
+        }
+        *to = u32x16::load_array(s, lanes);
+    }
+    components
+}
+
+/// One word of sixteen records of three, by permutations of the three vectors that hold them.
+#[inline(always)]
+#[expect(clippy::cast_possible_truncation, reason = "48 words")]
+fn component_of_three<S: Lanes, const C: usize>(s: S, records: &[[u32; 3]; LANES]) -> u32x16<S> {
+    // Where each lane's word is, modulo sixteen; and the lanes whose words are in each vector.
+    const fn places(component: usize) -> ([u32; LANES], [u16; 3]) {
+        let (mut order, mut lanes) = ([0; LANES], [0; 3]);
+        let mut lane = 0;
+        while lane < LANES {
+            let word = lane * 3 + component;
+            order[lane] = (word % LANES) as u32;
+            lanes[word / LANES] |= 1 << lane;
+            lane += 1;
+        }
+        (order, lanes)
+    }
+    let (order, [_, of_second, of_third]) = const { places(C) };
+    let order = u32x16::load_array(s, order);
+    let (vectors, _) = records.as_flattened().as_chunks::<LANES>();
+    let vector = |at: usize| s.permute(u32x16::load_array_ref(s, &vectors[at]), order);
+    let first_two = s.mask_from_bits(of_second).select(vector(1), vector(0));
+    s.mask_from_bits(of_third).select(vector(2), first_two)
 }
 
 /// Transposes sixteen records of four floats.
@@ -130,5 +177,28 @@ fn store_four<S: Lanes>(s: S, [x, y, z, w]: [f32x16<S>; 4], stride: usize, out: 
         b.store_slice(&mut out[first + stride..][..4]);
         c.store_slice(&mut out[first + 2 * stride..][..4]);
         d.store_slice(&mut out[first + 3 * stride..][..4]);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use estampe_simd::{Level, dispatch};
+
+    #[test]
+    fn records_of_three_words_are_transposed() {
+        let mut records = [[0; 3]; LANES];
+        for (word, number) in records.as_flattened_mut().iter_mut().zip(1..) {
+            *word = number;
+        }
+        for level in Level::all_available() {
+            let found = dispatch!(level, s => {
+                let [a, b, c] = components_of_three(s, &records);
+                [a.to_array(), b.to_array(), c.to_array()]
+            });
+            for (component, found) in found.iter().enumerate() {
+                assert_eq!(*found, records.map(|record| record[component]), "{level:?}");
+            }
+        }
     }
 }

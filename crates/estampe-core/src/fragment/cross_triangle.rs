@@ -1,4 +1,4 @@
-//! Varyings of fragments of sixteen small triangles, sixteen fragments at a time.
+//! Varyings of fragments of sixteen triangles, sixteen fragments at a time.
 //!
 //! If fragments need no neighbours, a packet need not be 4×4 pixels of one triangle: in a *row*,
 //! each lane is a pixel of any of a packet's triangles. Planes are made for the sixteen triangles
@@ -7,11 +7,10 @@
 
 use super::interpolate::{VaryingSource, smooth_derivatives};
 use crate::bounds::primitives::{TrianglePacket, VertexRef};
+use crate::bounds::triangle_edges::TriangleEdges;
 use crate::raster::pixel_list::Pixels;
 use crate::raster::small::PIXELS;
-use estampe_simd::{
-    Bytes, LANES, Lanes, Packet, Select, SimdBase, SimdCvtFloat, f32x16, i32x16, u32x16,
-};
+use estampe_simd::{Bytes, LANES, Lanes, Packet, Select, SimdBase, f32x16, i32x16, u32x16};
 use estampe_types::Interpolation;
 
 /// Fragments of one packet's small triangles in rows of sixteen, the first of which may hold
@@ -138,9 +137,7 @@ impl CrossPlanes {
             rows.resize(n, Packet::default());
         }
         self.fetch(s, packet, lanes, source);
-        let [dx1, dx2] = differences(s, &packet.x);
-        let [dy1, dy2] = differences(s, &packet.y);
-        let r = f32x16::load_array_ref(s, &packet.r);
+        let edges = TriangleEdges::of_packet(s, packet, lanes);
         let equal_w = s.mask_from_bits(packet.equal_w);
         let one = <f32x16<S> as SimdBase<S>>::splat(s, 1.0);
         let mut iw = [one; 3];
@@ -151,13 +148,9 @@ impl CrossPlanes {
         self.equal_w = packet.equal_w & lanes == lanes;
         self.equal_ws = packet.equal_w & lanes;
         let zero = <f32x16<S> as SimdBase<S>>::splat(s, 0.0);
-        let planes = [
-            (&packet.iw.origin, one),
-            (&packet.iw.dx, zero),
-            (&packet.iw.dy, zero),
-        ];
-        for (out, (values, if_equal)) in self.iw.iter_mut().zip(planes) {
-            let values = equal_w.select(if_equal, f32x16::load_array_ref(s, values));
+        let [dx, dy] = edges.slopes(s, iw);
+        let planes = [iw[0], equal_w.select(zero, dx), equal_w.select(zero, dy)];
+        for (out, values) in self.iw.iter_mut().zip(planes) {
             values.store_array(&mut out.0);
         }
         let [first, second, third] = &mut self.corners;
@@ -176,9 +169,9 @@ impl CrossPlanes {
                 p = [p[0] * iw[0], p[1] * iw[1], p[2] * iw[2]];
                 p[0].store_array(&mut p0.0);
             }
-            let (e1, e2) = (p[1] - p[0], p[2] - p[0]);
-            ((e1 * dy2 - e2 * dy1) * r).store_array(&mut dx.0);
-            ((e2 * dx1 - e1 * dx2) * r).store_array(&mut dy.0);
+            let [slope_x, slope_y] = edges.slopes(s, p);
+            slope_x.store_array(&mut dx.0);
+            slope_y.store_array(&mut dy.0);
         }
     }
 
@@ -215,8 +208,25 @@ impl CrossPlanes {
             fetch_rows(s, rows, vertices, lanes, source);
         }
         if source.modes.contains(&Interpolation::Flat) {
-            fetch_flat(&mut self.corners[0], &packet.provoking, lanes, source);
+            fetch_flat(&mut self.corners[0], &packet.provoking.0, lanes, source);
         }
+    }
+
+    /// 1/w of a row's fragments, as [`CrossPlanes::varyings`].
+    #[inline(always)]
+    pub(crate) fn inverse_w<S: Lanes>(
+        &self,
+        s: S,
+        row: Row<S>,
+        packet: &TrianglePacket,
+        distances: [f32x16<S>; 2],
+    ) -> f32x16<S> {
+        let lane = row.pixels.lane();
+        let [origin, dx, dy] = &self.iw;
+        let of_plane = evaluate(s, [origin, dx, dy], lane, distances);
+        let first = s.permute_f32(f32x16::load_array_ref(s, &packet.iw_at[0]), lane);
+        let is_equal = s.mask_from_bits(bits_of_row(s, self.equal_ws, row));
+        is_equal.select(first, of_plane)
     }
 
     /// The varyings of a row's fragments, given by the distances of their pixels' centres from the
@@ -323,10 +333,10 @@ pub(super) fn fetch_rows<S: Lanes>(
     let lane = lanes.trailing_zeros() as usize % LANES;
     let one = <u32x16<S> as SimdBase<S>>::splat(s, vertices[lane].0);
     let all = u32x16::load_array(s, vertices.map(|vertex| vertex.0));
-    let vertices = wanted.select(all, one).to_array();
+    let vertices = wanted.select(all, one);
     if n < 2 {
         for row in rows {
-            for (to, vertex) in row.0.iter_mut().zip(vertices) {
+            for (to, vertex) in row.0.iter_mut().zip(vertices.to_array()) {
                 *to = source.of(VertexRef(vertex))[0];
             }
         }
@@ -336,7 +346,7 @@ pub(super) fn fetch_rows<S: Lanes>(
     while first < n {
         // The last four columns overlap those before them.
         let at = first.min(n.saturating_sub(4));
-        let columns = source.four_of(s, &vertices, at);
+        let columns = source.four_of(s, vertices, at);
         for (row, column) in rows[at..].iter_mut().zip(columns) {
             column.store_array(&mut row.0);
         }
@@ -396,16 +406,6 @@ fn evaluate<S: Lanes>(
     origin + (x * dx + y * dy)
 }
 
-/// Differences of the second and the third vertex from the first, in pixels: exact.
-#[inline(always)]
-fn differences<S: Lanes>(s: S, of: &[[i32; LANES]; 3]) -> [f32x16<S>; 2] {
-    let first = i32x16::load_array_ref(s, &of[0]);
-    [
-        f32x16::float_from(i32x16::load_array_ref(s, &of[1]) - first) * (1.0 / 256.0),
-        f32x16::float_from(i32x16::load_array_ref(s, &of[2]) - first) * (1.0 / 256.0),
-    ]
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -438,6 +438,47 @@ mod tests {
                         let expected =
                             [corner, 2 - corner].map(|vertex| shaded[vertex * scalars + scalar]);
                         assert_eq!(values, expected, "{level:?}, {scalars} scalars");
+                    }
+                }
+            }
+        }
+    }
+
+    /// Vertices made by clipping, and the last one of a list, are read by themselves.
+    #[test]
+    fn vertices_are_read_from_both_lists() {
+        const CLIPPED: u32 = VertexRef::CLIPPED;
+        let lists: [[u32; 4]; 4] = [
+            [0, 3, 7, 12],
+            [19, 0, 18, 16],
+            [5, CLIPPED, 9, CLIPPED | 4],
+            [CLIPPED | 2, CLIPPED | 4, CLIPPED, CLIPPED | 1],
+        ];
+        for scalars in [2_usize, 3, 4, 5, 9] {
+            let numbers = |count: usize, first: usize| -> Vec<f32> {
+                let all = first..first + count * scalars;
+                all.map(|number| number as f32).collect()
+            };
+            let (shaded, clipped) = (numbers(20, 0), numbers(5, 1000));
+            let source = VaryingSource {
+                shaded: &shaded,
+                clipped: &clipped,
+                modes: &vec![Interpolation::Smooth; scalars],
+                gradients: &[],
+            };
+            for of_lanes in lists {
+                let mut vertices = [VertexRef(0); LANES];
+                for (vertex, of_lane) in vertices.iter_mut().zip(of_lanes.iter().cycle()) {
+                    *vertex = VertexRef(*of_lane);
+                }
+                for level in Level::all_available() {
+                    let mut rows = vec![Packet::default(); scalars];
+                    dispatch!(@wide level,
+                        s => fetch_rows(s, &mut rows, &vertices, u16::MAX, &source),
+                        scalar => continue);
+                    for (lane, vertex) in vertices.into_iter().enumerate() {
+                        let found: Vec<f32> = rows.iter().map(|row| row.0[lane]).collect();
+                        assert_eq!(found, source.of(vertex), "{level:?}, {vertex:?}");
                     }
                 }
             }

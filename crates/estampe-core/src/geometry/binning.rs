@@ -337,6 +337,8 @@ mod tests {
             position_range: [128; 2],
             sample_range: [128; 2],
             is_opaque: true,
+            has_colors: true,
+            has_flat_varyings: false,
         };
         let viewport = Viewport::of_target(SIZE[0], SIZE[1]);
         let (state, bias) = (PrimitiveState::default(), DepthBiasState::default());

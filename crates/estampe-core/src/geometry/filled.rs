@@ -17,6 +17,7 @@ use super::groups::PrimitiveGroups;
 use super::run::RunWork;
 use super::setup::{Setup, SetupLanes};
 use super::shaded_vertices::PackedVertex;
+use crate::bounds::transpose::components_of_three;
 use estampe_simd::{LANES, Lane, Lanes, SimdBase, u32x16};
 
 /// Draws the triangles of a run.
@@ -46,7 +47,7 @@ pub(super) fn draw<S: Lanes>(
             continue;
         }
         let lanes = SetupLanes {
-            vertices: vertices_of(s, group),
+            vertices: components_of_three(s, &group.vertices),
             first_vertex: <u32x16<S> as SimdBase<S>>::splat(s, work.vertices.first_in_group),
             doubled_area: classified.doubled_area,
         };
@@ -73,20 +74,6 @@ fn assemble(
     let count = primitives.next_group(&mut group.vertices)?;
     group.read_positions(window);
     Some(count)
-}
-
-/// The vertices of sixteen triangles, corner by corner.
-#[inline(always)]
-pub(super) fn vertices_of<S: Lanes>(s: S, group: &TriangleGroup) -> [u32x16<S>; 3] {
-    let mut vertices = [<u32x16<S> as SimdBase<S>>::splat(s, 0); 3];
-    for (corner, vertices) in vertices.iter_mut().enumerate() {
-        let mut lanes = [0; LANES];
-        for (lane, to) in lanes.iter_mut().enumerate() {
-            *to = group.vertices[lane][corner];
-        }
-        *vertices = u32x16::load_array(s, lanes);
-    }
-    vertices
 }
 
 /// A group on its way to set-up.

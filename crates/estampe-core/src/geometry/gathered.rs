@@ -8,12 +8,12 @@
 //! took 10.3 ms of CPU time without, 8.9 with this and uniforms read ahead.
 
 use super::cull::{TriangleGroup, WindowTriangles, classify};
-use super::filled::vertices_of;
 use super::groups::PrimitiveGroups;
 use super::run::RunWork;
 use super::setup::SetupScratch;
 use super::setup::{Setup, SetupLanes};
 use crate::bounds::chunk::Chunk;
+use crate::bounds::transpose::components_of_three;
 use estampe_simd::{LANES, Lanes, SimdBase, dispatch, u32x16};
 
 /// Triangles of a sub-draw that is gathered, at most: of more, few lanes would be idle.
@@ -93,7 +93,7 @@ impl Gathered {
         let waiting = scratch.waiting();
         let first_packet = chunk.triangles.len();
         let lanes = SetupLanes {
-            vertices: vertices_of(s, &self.group),
+            vertices: components_of_three(s, &self.group.vertices),
             first_vertex: u32x16::load_array_ref(s, &self.first_vertex),
             doubled_area: classified.doubled_area,
         };

@@ -30,6 +30,10 @@ pub(crate) struct GeometryPlan {
     pub(crate) line_style: LineStyle,
     /// True if tiles draw triangles one by one, in order.
     pub(crate) draws_one_by_one: bool,
+    /// True if tiles interpolate over triangles.
+    pub(crate) interpolates: bool,
+    /// True if some varying is the provoking vertex's.
+    pub(crate) has_flat_varyings: bool,
     /// The tiles that primitives are binned to.
     pub(crate) grid: TileGrid,
 }
@@ -47,6 +51,10 @@ pub(crate) struct TargetGeometry {
     pub(crate) sample_range: [i32; 2],
     /// True if the pipeline's triangles may be drawn by visibility.
     pub(crate) is_opaque: bool,
+    /// True if the pipeline writes colours.
+    pub(crate) has_colors: bool,
+    /// See [`GeometryPlan::has_flat_varyings`].
+    pub(crate) has_flat_varyings: bool,
 }
 
 impl GeometryPlan {
@@ -61,6 +69,7 @@ impl GeometryPlan {
         let [any, all] = samples.any_and_all(target.position_range);
         let (rect, whole_pixels) = (any.intersection(target.rect), all.intersection(target.rect));
         let cut_samples = (rect != whole_pixels).then_some(samples);
+        let draws_one_by_one = !target.is_opaque || cut_samples.is_some();
         Self {
             kind: kind_of(state.topology),
             polygon_mode: state.polygon_mode,
@@ -71,7 +80,9 @@ impl GeometryPlan {
             facing: Facing::new(state),
             depth_bias: DepthBias::new(bias, target.depth_stencil),
             line_style: LineStyle::new(&state.line),
-            draws_one_by_one: !target.is_opaque || cut_samples.is_some(),
+            draws_one_by_one,
+            interpolates: draws_one_by_one || target.has_colors,
+            has_flat_varyings: target.has_flat_varyings,
             grid: target.grid,
         }
     }

@@ -17,12 +17,11 @@ use super::shaded_vertices::PackedVertex;
 use super::vertex_order::{Order, sorted};
 use super::waiting::{FRONT, Waiting, first_half};
 use crate::bounds::chunk::{Chunk, number};
-use crate::bounds::plane::PlanePacket;
 use crate::bounds::primitives::{VertexRef, WindowVertex};
 use crate::bounds::transpose::components_of;
+use crate::bounds::triangle_edges::TriangleEdges;
 use estampe_simd::{
-    Bytes, LANES, Lanes, Level, Select, SimdBase, SimdCvtFloat, dispatch, f32x16, i32x16, outline,
-    u32x16,
+    Bytes, LANES, Lanes, Level, Select, SimdBase, dispatch, f32x16, i32x16, outline, u32x16,
 };
 
 /// Memory of one worker.
@@ -202,11 +201,17 @@ impl<'a> Setup<'a> {
             false => packets.push_stale(),
         };
         let live = u16::MAX >> (LANES - len);
-        for (corner, from) in [v0, v1, v2].into_iter().enumerate() {
-            packet.vertex[corner] = from.map(VertexRef);
-        }
+        // What is not read is not written: it would go to memory, and come from there before.
+        let interpolates = const { S::IS_SCALAR } || self.plan.interpolates;
         let provoking = first_half(&waiting.provoking);
-        packet.provoking = provoking.map(|vertex| VertexRef(vertex & !FRONT));
+        if interpolates {
+            for (corner, from) in [v0, v1, v2].into_iter().enumerate() {
+                packet.vertex[corner] = from.map(VertexRef);
+            }
+            if takes_apart || self.plan.has_flat_varyings {
+                packet.provoking.0 = provoking.map(|vertex| VertexRef(vertex & !FRONT));
+            }
+        }
         let provoking: i32x16<S> = u32x16::load_array_ref(s, provoking).bitcast();
         packet.front = s.sign_bits(provoking) & live;
         let area = f32x16::load_array_ref(s, first_half(&waiting.doubled_area));
@@ -223,25 +228,21 @@ impl<'a> Setup<'a> {
         y0.store_array(&mut packet.y[0]);
         y1.store_array(&mut packet.y[1]);
         y2.store_array(&mut packet.y[2]);
-        let scale = <f32x16<S> as SimdBase<S>>::splat(s, 1.0 / 256.0);
-        let edges = Edges {
-            dx1: f32x16::float_from(x1 - x0) * scale,
-            dy1: f32x16::float_from(y1 - y0) * scale,
-            dx2: f32x16::float_from(x2 - x0) * scale,
-            dy2: f32x16::float_from(y2 - y0) * scale,
-            r: <f32x16<S> as SimdBase<S>>::splat(s, 65_536.0) / area,
-        };
-        edges.r.store_array(&mut packet.r);
-        edges.plane(s, z0, z1, z2, &mut packet.z);
+        let edges = TriangleEdges::new(s, [&[x0, x1, x2], &[y0, y1, y2]], area);
+        z0.store_array(&mut packet.z.origin);
+        let [dx, dy] = edges.slopes(s, [z0, z1, z2]);
+        dx.store_array(&mut packet.z.dx);
+        dy.store_array(&mut packet.z.dy);
         if let Some(bias) = &self.plan.depth_bias {
             bias.apply(&mut packet.z, &[z1.to_array(), z2.to_array()]);
         }
         packet.equal_w = s.bits_of_mask(w0.simd_eq(w1) & w0.simd_eq(w2));
         let [w0, w1, w2]: [f32x16<S>; 3] = [w0.bitcast(), w1.bitcast(), w2.bitcast()];
-        w0.store_array(&mut packet.iw_at[0]);
-        w1.store_array(&mut packet.iw_at[1]);
-        w2.store_array(&mut packet.iw_at[2]);
-        edges.plane(s, w0, w1, w2, &mut packet.iw);
+        if interpolates {
+            w0.store_array(&mut packet.iw_at[0]);
+            w1.store_array(&mut packet.iw_at[1]);
+            w2.store_array(&mut packet.iw_at[2]);
+        }
 
         if takes_apart {
             self.chunk.take_apart_last();
@@ -269,27 +270,6 @@ impl<'a> Setup<'a> {
                 }
             }
             components_of(s, &records)
-        })
-    }
-}
-
-/// Differences of sixteen triangles' positions, in pixels, and 1 ÷ doubled area.
-struct Edges<S: Lanes> {
-    dx1: f32x16<S>,
-    dy1: f32x16<S>,
-    dx2: f32x16<S>,
-    dy2: f32x16<S>,
-    r: f32x16<S>,
-}
-
-impl<S: Lanes> Edges<S> {
-    #[inline(always)]
-    fn plane(&self, s: S, p0: f32x16<S>, p1: f32x16<S>, p2: f32x16<S>, out: &mut PlanePacket) {
-        outline!(s, {
-            let (e1, e2) = (p1 - p0, p2 - p0);
-            p0.store_array(&mut out.origin);
-            ((e1 * self.dy2 - e2 * self.dy1) * self.r).store_array(&mut out.dx);
-            ((e2 * self.dx1 - e1 * self.dx2) * self.r).store_array(&mut out.dy);
         })
     }
 }

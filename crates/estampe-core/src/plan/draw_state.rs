@@ -10,6 +10,7 @@ use crate::commands::Draw;
 use crate::geometry::plan::{GeometryPlan, TargetGeometry};
 use crate::pipeline::RenderPipeline;
 use crate::raster::conservative::sample_range;
+use estampe_types::Interpolation;
 use estampe_types::state::{ConservativeMode, ScissorRect, Viewport};
 
 /// State that draws of a batch have in common.
@@ -36,6 +37,7 @@ impl<'a> DrawState<'a> {
         let descriptor = draw.pipeline.descriptor();
         let primitive = &descriptor.primitive;
         let samples = target.samples() as usize;
+        let varyings = &draw.pipeline.interface().varyings;
         let on_target = TargetGeometry {
             grid: target.grid(),
             depth_stencil: target.depth_stencil_format(),
@@ -43,6 +45,8 @@ impl<'a> DrawState<'a> {
             position_range: sample_range(samples, ConservativeMode::Disabled),
             sample_range: sample_range(samples, primitive.conservative),
             is_opaque: draw.pipeline.key().is_opaque,
+            has_colors: draw.pipeline.key().has_colors,
+            has_flat_varyings: varyings.contains(&Interpolation::Flat),
         };
         let bias = descriptor.depth_stencil.map(|state| state.bias);
         let bias = bias.unwrap_or_default();

@@ -1,5 +1,6 @@
 //! Lists of fragments that fill packets, pixel by pixel.
 
+use crate::fragment::quad::QUAD;
 use crate::raster::Covered;
 use crate::raster::small::PIXELS;
 use estampe_simd::{Bytes, LANES, Lanes, Select, SimdBase, u32x16};
@@ -65,10 +66,15 @@ impl Fragments {
         debug_assert!(self.len <= Self::MOST, "{} fragments", self.len);
     }
 
-    /// Adds the pixels of a packet of the tile of which some samples are in masks.
+    /// Adds the pixels of a packet of the tile of which some samples, which are in masks, show the
+    /// triangle of a lane.
     #[inline(always)]
-    pub(super) fn add_packet<S: Lanes, const N: usize>(&mut self, s: S, covered: &Covered<N>) {
-        const NUMBERS: [u32; LANES] = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15];
+    pub(super) fn add_packet<S: Lanes, const N: usize>(
+        &mut self,
+        s: S,
+        lane: u8,
+        covered: &Covered<N>,
+    ) {
         let zero = <u32x16<S> as SimdBase<S>>::splat(s, 0);
         let mut samples = zero;
         if const { N > 1 } {
@@ -78,7 +84,38 @@ impl Fragments {
             }
         }
         let places = u32x16::load_array(s, NUMBERS) + u32::from(covered.packet) * 16;
-        self.add(s, covered.any(), [zero, places, samples]);
+        let pixels = <u32x16<S> as SimdBase<S>>::splat(s, pixel_of(lane));
+        self.add(s, covered.any(), [pixels, places, samples]);
+    }
+
+    /// Adds the pixels of a quad of the tile, packet·4 + quad, that shows the triangle of a lane;
+    /// masks, one for each sample, say which of them do.
+    #[inline(always)]
+    #[expect(clippy::cast_possible_truncation, reason = "four")]
+    pub(super) fn add_quad<S: Lanes, const N: usize>(
+        &mut self,
+        s: S,
+        lane: u8,
+        (place, masks): (u16, [u16; N]),
+    ) {
+        let splat = |value| <u32x16<S> as SimdBase<S>>::splat(s, value);
+        let mut samples = splat(0);
+        for (mask, sample) in masks.into_iter().zip(0..) {
+            samples |= s.mask_from_bits(mask).select(splat(1 << sample), splat(0));
+        }
+        let places = u32x16::load_array(s, NUMBERS) + u32::from(place) * QUAD as u32;
+        // Sixteen are written, of which the next ones take the place of all but four.
+        let lists = [&mut self.pixels, &mut self.places, &mut self.samples];
+        for (list, values) in lists
+            .into_iter()
+            .zip([splat(pixel_of(lane)), places, samples])
+        {
+            if let Some(to) = chunk_from(list, Self::FIRST + self.len) {
+                values.store_array(to);
+            }
+        }
+        self.len += QUAD;
+        debug_assert!(self.len <= Self::MOST, "{} fragments", self.len);
     }
 
     /// Sixteen fragments: pixels, places, samples. The lane of fragment `from` is `lane`.
@@ -109,6 +146,16 @@ impl Fragments {
     }
 }
 
+/// The number of each lane.
+const NUMBERS: [u32; LANES] = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15];
+
+/// The first pixel of a lane's triangle.
+#[inline(always)]
+#[expect(clippy::cast_possible_truncation, reason = "64")]
+fn pixel_of(lane: u8) -> u32 {
+    u32::from(lane) * PIXELS as u32
+}
+
 #[inline(always)]
 fn chunk_from(list: &mut [u32; Fragments::ROOM], from: usize) -> Option<&mut [u32; LANES]> {
     list.get_mut(from..).and_then(<[u32]>::first_chunk_mut)
@@ -120,15 +167,17 @@ fn sixteen_of(list: &[u32; Fragments::ROOM], from: usize) -> &[u32; LANES] {
     sixteen.unwrap_or(&[0; LANES])
 }
 
-/// The lanes of each sample, among some lanes, of fragments whose samples are listed.
+/// The lanes of each sample, among some lanes, of fragments whose samples are listed. If a pixel
+/// has one sample, it is listed for quads alone: `are_quads`.
 #[inline(always)]
 pub(super) fn masks_of<S: Lanes, const N: usize>(
     s: S,
     samples: &[u32; LANES],
     lanes: u16,
+    are_quads: bool,
 ) -> [u16; N] {
     let mut masks = [lanes; N];
-    if const { N > 1 } {
+    if const { N > 1 } || are_quads {
         let samples = u32x16::load_array_ref(s, samples);
         for (mask, sample) in masks.iter_mut().zip(0u32..) {
             *mask &= s.sign_bits((samples << (31 - sample)).bitcast());

@@ -10,6 +10,7 @@ mod clear;
 mod fragments;
 mod in_order;
 mod next_tile;
+mod upcoming_runs;
 mod visibility;
 mod worker_tile;
 
@@ -158,12 +159,14 @@ fn draw_into<const N: usize>(
 ) {
     begin(pass, job, scratch);
     let mut ahead = in_order::Ahead::new(pass, job.tile);
+    let mut packets_ahead = visibility::Ahead::new(pass, job.tile);
     for &number in pass.chunk_index.of_tile(job.tile) {
         for (sub_draw, entries) in pass.chunks[number as usize].runs_of_tile(job.tile) {
             let work = TileWork::new(pass, [number, sub_draw], job.tile);
             scratch.count(work.plan.path, entries);
             if work.plan.path.is_visibility() {
                 in_order::finish(pass, job, scratch);
+                let job = (&mut *job, &mut packets_ahead);
                 visibility::add(pass, (&work, entries), job, scratch);
             } else {
                 let to = if visibility::takes_lines(pass, &work, job, scratch) {

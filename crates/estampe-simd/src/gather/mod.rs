@@ -32,6 +32,7 @@ fn last_index(table: &[u32]) -> Option<u32> {
 }
 
 /// The bits of floats, to gather from.
+#[inline(always)]
 #[must_use]
 #[expect(unsafe_code, reason = "safe transmutation is not stable")]
 pub fn bits_of(table: &[f32]) -> &[u32] {

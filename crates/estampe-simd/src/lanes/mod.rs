@@ -40,6 +40,11 @@ pub trait Lanes: Simd {
     #[inline(always)]
     fn prefetch<T>(self, _value: &T) {}
 
+    /// [`prefetch`](Self::prefetch) of an element of the table for each lane. An index beyond the
+    /// end does no harm.
+    #[inline(always)]
+    fn prefetch_elements(self, _table: &[u32], _index: u32x16<Self>) {}
+
     /// `a < b ? a : b` in each lane: `b` if either is NaN, and of two zeros `b`.
     #[inline(always)]
     fn min_f32(self, a: f32x16<Self>, b: f32x16<Self>) -> f32x16<Self> {

@@ -22,6 +22,10 @@ impl Lanes for Sse2 {
         crate::prefetch::sse2(self, value);
     }
     #[inline(always)]
+    fn prefetch_elements(self, table: &[u32], index: u32x16<Self>) {
+        crate::prefetch::elements_sse2(self, table, index);
+    }
+    #[inline(always)]
     fn min_f32(self, a: f32x16<Self>, b: f32x16<Self>) -> f32x16<Self> {
         a.min(b)
     }
@@ -71,6 +75,10 @@ impl Lanes for Avx2 {
     #[inline(always)]
     fn prefetch<T>(self, value: &T) {
         crate::prefetch::avx2(self, value);
+    }
+    #[inline(always)]
+    fn prefetch_elements(self, table: &[u32], index: u32x16<Self>) {
+        crate::prefetch::elements_avx2(self, table, index);
     }
     #[inline(always)]
     fn min_f32(self, a: f32x16<Self>, b: f32x16<Self>) -> f32x16<Self> {
@@ -156,6 +164,10 @@ impl Lanes for Avx512 {
     #[inline(always)]
     fn prefetch<T>(self, value: &T) {
         crate::prefetch::avx512(self, value);
+    }
+    #[inline(always)]
+    fn prefetch_elements(self, table: &[u32], index: u32x16<Self>) {
+        crate::prefetch::elements_avx512(self, table, index);
     }
     #[inline(always)]
     fn min_f32(self, a: f32x16<Self>, b: f32x16<Self>) -> f32x16<Self> {

@@ -147,6 +147,50 @@ fn pixels_fill_packets_where_no_quads_are_needed() {
     assert!(by_pixels > 1000, "{by_pixels} fragments fill packets");
 }
 
+/// Shaders that take derivatives by quads: those of triangles of any size share packets.
+///
+/// Rows: R1, R5, R6, R7, O3.
+#[test]
+fn quads_of_triangles_share_packets() {
+    for samples in [1, 4, 8] {
+        let topic = format!("gradients/quads_{samples}");
+        let statistics = check_paths(&topic, 40, ExpectedPaths(&[TilePath::VisibilityQuads]), {
+            |random| {
+                let scalars = [
+                    Scalar::Ddx,
+                    Scalar::Ddy,
+                    Scalar::DdxCoarse,
+                    Scalar::DdyCoarse,
+                    Scalar::DepthSlope,
+                ];
+                let mut case = case(random, samples, |random| {
+                    Probe(random.pick(&scalars)).into()
+                });
+                for draw in &mut case.draws {
+                    let style = random.pick(&[
+                        Style::Small,
+                        Style::OnGrid,
+                        Style::Large,
+                        Style::AroundEye,
+                        Style::AcrossDepths,
+                    ]);
+                    let vertices = triangles(random, style, case.size, 40);
+                    *draw = CaseDraw {
+                        depth: draw.depth,
+                        ..CaseDraw::new(draw.shader.clone(), &vertices)
+                    };
+                }
+                case
+            }
+        });
+        let quads = statistics.quads_across_triangles;
+        assert!(
+            quads > 1000,
+            "{quads} quads of {samples} samples share packets"
+        );
+    }
+}
+
 /// Many triangles of which several meet in most packets.
 fn check_meeting(topic: &str, samples: u32, paths: ExpectedPaths) -> Statistics {
     check_paths(topic, 40, paths, |random| {

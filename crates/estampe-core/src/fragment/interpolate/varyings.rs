@@ -4,7 +4,7 @@ use super::planes::pixels;
 use crate::bounds::plane::Plane;
 use crate::bounds::primitives::{Triangle, VertexRef};
 use crate::bounds::transpose::components_of_f32;
-use estampe_simd::{LANES, Lanes, SimdBase, f32x4, f32x16};
+use estampe_simd::{Bytes, LANES, Lanes, SimdBase, bits_of, f32x4, f32x16, u32x16};
 use estampe_types::Interpolation;
 
 /// The varyings of a draw's vertices.
@@ -35,12 +35,11 @@ impl<'a> VaryingSource<'a> {
     /// Four scalars of sixteen vertices, from scalar `at` on; of vertices with fewer than four, all
     /// of them and whatever follows. There must be two at least.
     #[inline(always)]
-    pub(crate) fn four_of<S: Lanes>(
-        &self,
-        s: S,
-        vertices: &[u32; LANES],
-        at: usize,
-    ) -> [f32x16<S>; 4] {
+    pub(crate) fn four_of<S: Lanes>(&self, s: S, vertices: u32x16<S>, at: usize) -> [f32x16<S>; 4] {
+        if let Some(found) = self.four_of_shaded(s, vertices, at) {
+            return found;
+        }
+        let vertices = vertices.to_array();
         let n = self.modes.len();
         // Only the last vertex of a list may have fewer than four scalars from there on.
         let (mut end, mut clipped_end) = ([0.0; 4], [0.0; 4]);
@@ -54,7 +53,7 @@ impl<'a> VaryingSource<'a> {
             }
         }
         let mut rows = [&end; LANES];
-        for (row, &vertex) in rows.iter_mut().zip(vertices) {
+        for (row, vertex) in rows.iter_mut().zip(vertices) {
             let (from, end) = if vertex & VertexRef::CLIPPED == 0 {
                 (self.shaded, &end)
             } else {
@@ -65,6 +64,32 @@ impl<'a> VaryingSource<'a> {
             *row = found.unwrap_or(end);
         }
         components_of_f32(s, &rows)
+    }
+
+    /// [`VaryingSource::four_of`], if clipping made none of the vertices and each has four scalars,
+    /// or others follow: one check for all of them.
+    #[inline(always)]
+    fn four_of_shaded<S: Lanes>(
+        &self,
+        s: S,
+        vertices: u32x16<S>,
+        at: usize,
+    ) -> Option<[f32x16<S>; 4]> {
+        let splat = |value| <u32x16<S> as SimdBase<S>>::splat(s, value);
+        // Numbers of vertices that are in a shorter list are below 2³² after the product.
+        let len = u32::try_from(self.shaded.len()).ok()?;
+        let last = splat(len.checked_sub(4)?);
+        let (n, at) = (
+            u32::try_from(self.modes.len()).ok()?,
+            u32::try_from(at).ok()?,
+        );
+        let first = vertices * splat(n) + splat(at);
+        let is_found = first.simd_le(last) & vertices.simd_lt(splat(VertexRef::CLIPPED));
+        if s.bits_of_mask(is_found) != u16::MAX {
+            return None;
+        }
+        let [a, b, c, d] = s.gather_four(bits_of(self.shaded), first);
+        Some([a.bitcast(), b.bitcast(), c.bitcast(), d.bitcast()])
     }
 }
 

@@ -5,6 +5,7 @@ use super::{CAPACITY, FragmentQueue};
 use crate::depth_format::clamp_depth;
 use crate::fragment::interpolate::{PixelInterpolant, WindowPixels};
 use crate::fragment::place::Place;
+use crate::fragment::quad::QUAD;
 use estampe_simd::{LANES, Lanes, Packet, SimdBase, f32x16};
 use std::hint::select_unpredictable;
 
@@ -61,10 +62,18 @@ impl<const N: usize> FragmentQueue<N> {
         let shaded = self.shaded(slot);
         let used = LANES - lanes.leading_zeros() as usize;
         self.open_pixels = (used < LANES).then_some((slot, used));
-        if let (Place::Pixels(to), Place::Pixels(from)) = (&mut self.places[slot], &packet.place) {
-            for (lane, (to, from)) in to.iter_mut().zip(from).enumerate() {
-                *to = select_unpredictable(lanes >> lane & 1 == 1, *from, *to);
+        match (&mut self.places[slot], &packet.place) {
+            (Place::Pixels(to), Place::Pixels(from)) => {
+                for (lane, (to, from)) in to.iter_mut().zip(from).enumerate() {
+                    *to = select_unpredictable(lanes >> lane & 1 == 1, *from, *to);
+                }
             }
+            (Place::Quads(to), Place::Quads(from)) => {
+                for (quad, (to, from)) in to.iter_mut().zip(from).enumerate() {
+                    *to = select_unpredictable(lanes >> (quad * QUAD) & 1 == 1, *from, *to);
+                }
+            }
+            _ => {}
         }
         let mut any = 0;
         for (to, mask) in self.masks[slot].iter_mut().zip(packet.masks) {

@@ -13,10 +13,10 @@
 //! while those before are drawn, were no faster than sixteen.
 
 use crate::bounds::bins::BinEntry;
-use crate::bounds::chunk::{Chunk, RunsOfTile};
 use crate::bounds::primitives::{LinePrimitive, PackedTriangle, VertexRef};
 use crate::fragment::interpolate::VaryingSource;
-use crate::tile_pass::{TilePass, varyings_of};
+use crate::tile_pass::TilePass;
+use crate::tile_pass::upcoming_runs::{UpcomingRun, UpcomingRuns};
 use estampe_simd::{LANES, Lane, Lanes, Level, dispatch};
 
 /// The primitives of a tile that come next, of those that are drawn in order.
@@ -34,11 +34,8 @@ impl<'a> Ahead<'a> {
     /// The primitives of a tile, of which none is drawn.
     pub(in crate::tile_pass) fn new(pass: &'a TilePass<'a>, tile: u32) -> Self {
         let all = Upcoming {
-            pass,
-            tile,
-            chunks: pass.chunk_index.of_tile(tile),
+            runs: UpcomingRuns::new(pass, tile),
             run: None,
-            entries: &[],
             lanes: 0,
             packet: 0,
         };
@@ -117,24 +114,11 @@ enum Primitive<'a> {
 /// A tile's primitives from one on.
 #[derive(Debug, Clone)]
 struct Upcoming<'a> {
-    pass: &'a TilePass<'a>,
-    tile: u32,
-    /// The numbers of the chunks after that of the run at hand.
-    chunks: &'a [u32],
-    run: Option<Run<'a>>,
-    /// The entries of the run that are left.
-    entries: &'a [BinEntry],
+    runs: UpcomingRuns<'a>,
+    run: Option<UpcomingRun<'a>>,
     /// The triangles that are left of the packet at hand.
     lanes: u16,
     packet: u32,
-}
-
-/// A run of a chunk, and those after it.
-#[derive(Debug, Clone)]
-struct Run<'a> {
-    chunk: &'a Chunk,
-    source: VaryingSource<'a>,
-    later: RunsOfTile<'a>,
 }
 
 impl<'a> Upcoming<'a> {
@@ -142,17 +126,17 @@ impl<'a> Upcoming<'a> {
     #[inline(always)]
     fn next(&mut self) -> Option<(Primitive<'a>, VaryingSource<'a>)> {
         while self.lanes == 0 {
-            let Some((first, rest)) = self.entries.split_first() else {
-                self.begin_run()?;
+            let entry = self.run.as_mut().and_then(UpcomingRun::next_entry);
+            let (Some(run), Some(entry)) = (&self.run, entry) else {
+                let next = self.runs.next(|path| !path.is_visibility())?;
+                self.run = Some(next);
                 continue;
             };
-            self.entries = rest;
-            match *first {
+            match entry {
                 BinEntry::Triangles { packet, lanes } => {
                     (self.packet, self.lanes) = (packet, lanes);
                 }
                 BinEntry::Line(number) => {
-                    let run = self.run.as_ref()?;
                     let line = &run.chunk.lines[number as usize];
                     return Some((Primitive::Line(line), run.source));
                 }
@@ -164,34 +148,5 @@ impl<'a> Upcoming<'a> {
         let run = self.run.as_ref()?;
         let triangle = &run.chunk.taken_apart(self.packet)[lane.get()];
         Some((Primitive::Triangle(triangle), run.source))
-    }
-
-    /// Goes on with the next run that is drawn in order; `None` at the end.
-    #[inline(never)]
-    fn begin_run(&mut self) -> Option<()> {
-        let pass = self.pass;
-        loop {
-            let next = self.run.as_mut().and_then(|run| run.later.next());
-            let Some((sub_draw, entries)) = next else {
-                let (&number, rest) = self.chunks.split_first()?;
-                self.chunks = rest;
-                let chunk = &pass.chunks[number as usize];
-                self.run = Some(Run {
-                    chunk,
-                    source: varyings_of(chunk, pass.plans.first()?),
-                    later: chunk.runs_of_tile(self.tile),
-                });
-                continue;
-            };
-            let plan = &pass.plans[sub_draw as usize];
-            if plan.path.is_visibility() {
-                continue;
-            }
-            self.entries = entries;
-            if let Some(run) = &mut self.run {
-                run.source = varyings_of(run.chunk, plan);
-            }
-            return Some(());
-        }
     }
 }

@@ -38,7 +38,7 @@ impl<const N: usize> InOrder<'_, '_, '_, '_, N> {
                 continue;
             }
             let fragments = &mut self.scratch.in_order.fragments;
-            fragments.add_packet(s, &covered);
+            fragments.add_packet(s, 0, &covered);
             if fragments.len() > Fragments::MOST - LANES {
                 self.fill_packets(s, interpolant, front);
             }
@@ -90,7 +90,7 @@ impl<const N: usize> InOrder<'_, '_, '_, '_, N> {
             let lanes = lanes_between(used, end);
             let packet = PixelPacket {
                 place: Place::of_pixels(places),
-                masks: masks_of(s, samples, lanes),
+                masks: masks_of(s, samples, lanes, false),
                 front: if front { lanes } else { 0 },
             };
             let pixels = WindowPixels::of_places(s, u32x16::load_array_ref(s, places), tile);

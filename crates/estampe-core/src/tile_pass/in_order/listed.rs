@@ -223,7 +223,7 @@ impl<const N: usize> InOrder<'_, '_, '_, '_, N> {
             *mask &= lanes;
         }
         let mut packet = PixelPacket {
-            place: place_of(&places, quads),
+            place: Place::of(&places, quads),
             masks,
             front: bits_of_row(s, V::front(scratch), row),
         };
@@ -304,18 +304,4 @@ impl<const N: usize> InOrder<'_, '_, '_, '_, N> {
 #[inline(always)]
 fn moved<S: Lanes>([x, y]: [f32x16<S>; 2], from: [f32; 2], to: [f32; 2]) -> [f32x16<S>; 2] {
     [x + (to[0] - from[0]), y + (to[1] - from[1])]
-}
-
-/// The place of sixteen pixels; if they are quads, that of four quads.
-#[inline(always)]
-#[expect(
-    clippy::cast_possible_truncation,
-    reason = "a tile has 4096 pixels at most"
-)]
-pub(super) fn place_of(pixels: &[u32; LANES], quads: bool) -> Place {
-    if quads {
-        let quad = |number: usize| (pixels[number * QUAD] / QUAD as u32) as u16;
-        return Place::Quads([quad(0), quad(1), quad(2), quad(3)]);
-    }
-    Place::of_pixels(pixels)
 }

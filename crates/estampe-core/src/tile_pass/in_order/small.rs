@@ -19,14 +19,14 @@ use super::listed::ListedValues;
 use super::rectangle::is_rectangle;
 use crate::bounds::primitives::{LinePacket, PackedTriangle, TrianglePacket};
 use crate::fragment::cross_line::CrossLines;
-use crate::fragment::cross_triangle::{CrossPlanes, Row, bits_of_row};
+use crate::fragment::cross_triangle::{CrossPlanes, Row};
 use crate::fragment::interpolate::VaryingSource;
 use crate::plan::tile_plan::TilePlan;
 use crate::raster::parts::{Part, Parts};
 use crate::raster::pixel_list::PixelList;
 use crate::raster::small::{Boxes, SIDE, SmallBoxes};
 use crate::tile_path::TilePath;
-use estampe_simd::{LANES, Lanes, Packet, Select, SimdBase, dispatch, f32x16, u32x16};
+use estampe_simd::{LANES, Lanes, Packet, dispatch, f32x16, u32x16};
 use estampe_types::state::ConservativeMode;
 
 /// Fewer triangles than this are drawn one by one.
@@ -211,10 +211,7 @@ impl ListedValues for OfTriangles {
         row: Row<S>,
         distances: [f32x16<S>; 2],
     ) -> f32x16<S> {
-        let (iw, lane) = (&of.packet.iw, row.pixels.lane());
-        let origin = s.permute_f32(f32x16::load_array_ref(s, &iw.origin), lane);
-        let is_equal = s.mask_from_bits(bits_of_row(s, of.packet.equal_w, row));
-        is_equal.select(origin, iw.at(s, lane, distances))
+        of.planes.inverse_w(s, row, &of.packet, distances)
     }
 
     #[inline(always)]

@@ -23,6 +23,15 @@ pub(super) struct TriangleRef {
     pub(super) lane: u8,
 }
 
+impl TriangleRef {
+    /// Returns true if the triangles of two ids are of one sub-draw and packet.
+    #[inline(always)]
+    pub(super) fn shares_packet_with(&self, other: &Self) -> bool {
+        let of = |triangle: &Self| (triangle.chunk, triangle.packet, triangle.sub_draw);
+        of(self) == of(other)
+    }
+}
+
 /// Triangles of a run whose fragments may share calls of the program.
 #[derive(Debug, Clone)]
 pub(super) struct ShadingGroup {

@@ -23,6 +23,7 @@
 //! `shortcuts` holds optimisations for large triangles that fill whole blocks; each of them can be
 //! deleted alone.
 
+mod ahead;
 mod buffer;
 mod counting;
 mod cross_triangle;
@@ -47,6 +48,7 @@ use buffer::VisibilityBuffer;
 use cross_triangle::CrossTriangleScratch;
 use resolve::ResolveScratch;
 
+pub(super) use ahead::Ahead;
 pub(super) use lines::takes_lines;
 pub(super) use resolve::resolve;
 
@@ -91,7 +93,7 @@ impl<const N: usize> Default for VisibilityScratch<N> {
 pub(super) fn add<const N: usize>(
     pass: &TilePass<'_>,
     (work, entries): (&TileWork<'_>, &[BinEntry]),
-    job: &mut TileJob<'_>,
+    (job, ahead): (&mut TileJob<'_>, &mut Ahead<'_>),
     scratch: &mut TileScratch<N>,
 ) {
     let visibility = &scratch.visibility;
@@ -116,6 +118,7 @@ pub(super) fn add<const N: usize>(
     let key = work.plan.pipeline.key();
     buffer.has_one_color_draws |= key.has_colors && key.uniform_over_draw;
     if may_wait {
+        ahead.skip(entries.len());
         if !scratch.visibility.waiting.add(work, entries, first) {
             rasterize::rasterize_waiting(pass, job, scratch);
             let added = scratch.visibility.waiting.add(work, entries, first);
@@ -130,5 +133,5 @@ pub(super) fn add<const N: usize>(
         let queue = &mut scratch.queue;
         queue.configure(plan.pipeline, pass.sample_set(), range, false);
     }
-    rasterize::rasterize(pass, (work, entries), first, job, scratch);
+    rasterize::rasterize(pass, (work, entries), first, (job, ahead), scratch);
 }

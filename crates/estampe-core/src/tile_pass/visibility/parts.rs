@@ -18,8 +18,6 @@ pub(super) struct Parts<const N: usize> {
     parts: Vec<Part<N>>,
     /// By visibility id: the triangle's last part.
     last: Vec<u32>,
-    /// The ids of triangles that have parts.
-    triangles: Vec<u32>,
 }
 
 impl<const N: usize> Default for Parts<N> {
@@ -27,7 +25,6 @@ impl<const N: usize> Default for Parts<N> {
         Self {
             parts: Vec::new(),
             last: Vec::new(),
-            triangles: Vec::new(),
         }
     }
 }
@@ -43,12 +40,17 @@ impl<const N: usize> Parts<N> {
     /// Forgets the parts of the triangles before.
     pub(super) fn begin_group(&mut self) {
         self.parts.clear();
-        self.triangles.clear();
     }
 
-    /// The ids of triangles that have parts.
-    pub(super) fn triangles(&self) -> &[u32] {
-        &self.triangles
+    /// Returns true if no triangle of the group has parts.
+    pub(super) fn is_empty(&self) -> bool {
+        self.parts.is_empty()
+    }
+
+    /// By visibility id: the number of the triangle's last part, or [`NONE`].
+    #[inline(always)]
+    pub(super) fn last(&self) -> &[u32] {
+        &self.last
     }
 
     /// Adds a triangle's part of a packet.
@@ -61,9 +63,6 @@ impl<const N: usize> Parts<N> {
         let Some(last) = self.last.get_mut(id as usize) else {
             return;
         };
-        if *last == NONE {
-            self.triangles.push(id);
-        }
         let before = std::mem::replace(last, self.parts.len() as u32);
         self.parts.push(Part { before, covered });
     }

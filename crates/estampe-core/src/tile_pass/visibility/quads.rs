@@ -5,8 +5,7 @@
 //! quads a triangle has cannot be predicted, so there is no branch on it.
 
 use crate::fragment::quad::{QUAD, QUADS};
-use crate::fragment::queue::QuadPlace;
-use crate::raster::{Covered, packet_origin};
+use crate::raster::Covered;
 
 use super::resolve::NONE;
 use std::hint::select_unpredictable;
@@ -27,9 +26,6 @@ pub(super) struct Quads<const N: usize> {
     len: usize,
     /// By visibility id: the triangle's last quad.
     last: Vec<u32>,
-    /// The ids of triangles that have quads, and one that was written too much.
-    triangles: Vec<u32>,
-    triangles_len: usize,
 }
 
 impl<const N: usize> Default for Quads<N> {
@@ -38,8 +34,6 @@ impl<const N: usize> Default for Quads<N> {
             quads: Vec::new(),
             len: 0,
             last: Vec::new(),
-            triangles: Vec::new(),
-            triangles_len: 0,
         }
     }
 }
@@ -55,12 +49,17 @@ impl<const N: usize> Quads<N> {
     /// Forgets the quads of the triangles before.
     pub(super) fn begin_group(&mut self) {
         self.len = 0;
-        self.triangles_len = 0;
     }
 
-    /// The ids of triangles that have quads.
-    pub(super) fn triangles(&self) -> &[u32] {
-        &self.triangles[..self.triangles_len]
+    /// Returns true if no triangle of the group has quads.
+    pub(super) fn is_empty(&self) -> bool {
+        self.len == 0
+    }
+
+    /// By visibility id: the number of the triangle's last quad, or [`NONE`].
+    #[inline(always)]
+    pub(super) fn last(&self) -> &[u32] {
+        &self.last
     }
 
     /// Adds a triangle's quads of one packet; bit 4·i of `quads` is quad i.
@@ -78,11 +77,6 @@ impl<const N: usize> Quads<N> {
             };
             self.quads.resize((self.len + QUADS) * 2, nothing);
         }
-        if self.triangles.len() <= self.triangles_len {
-            self.triangles.resize((self.triangles_len + 1) * 2, 0);
-        }
-        self.triangles[self.triangles_len] = id;
-        self.triangles_len += usize::from(*last == NONE);
         for quad in 0..QUADS {
             let shift = quad * QUAD;
             let mut masks = covered.masks;
@@ -108,30 +102,15 @@ impl<const N: usize> Quads<N> {
         self.last.get(id as usize).copied().unwrap_or(NONE)
     }
 
-    /// Up to four quads of a triangle from one on, how many, and where to go on. Places that are
-    /// left over repeat a quad.
+    /// A quad, packet·4 + quad, and by sample its mask in the lowest four bits; and the number of
+    /// the next one to take.
     #[inline(always)]
-    pub(super) fn four(&self, first: u32, origin: [i32; 2]) -> ([QuadPlace<N>; QUAD], usize, u32) {
-        let place = |quad: &Quad<N>| {
-            let (x, y) = packet_origin(u32::from(quad.place / 4));
-            let inside = i32::from(quad.place % 4);
-            QuadPlace {
-                place: quad.place,
-                masks: quad.masks,
-                pixel: [
-                    origin[0] + x + (inside & 1) * 2,
-                    origin[1] + y + (inside >> 1) * 2,
-                ],
-            }
-        };
-        let mut places = [place(&self.quads[first as usize]); QUAD];
-        let (mut count, mut next) = (0, first);
-        while count < QUAD && next != NONE {
-            let quad = &self.quads[next as usize];
-            places[count] = place(quad);
-            count += 1;
-            next = quad.before;
-        }
-        (places, count, next)
+    pub(super) fn quad(&self, number: u32) -> ((u16, [u16; N]), u32) {
+        let Quad {
+            before,
+            place,
+            masks,
+        } = self.quads[number as usize];
+        ((place, masks), before)
     }
 }

@@ -1,10 +1,10 @@
 //! The visibility pass over the triangles of one bin: coverage, hierarchical z, writes.
 
-use super::ONLY_WIDE;
 use super::buffer::TriangleRef;
 use super::gathered::GatheredTriangles;
 use super::shortcuts::OrderKind;
 use super::writer::{IdStorage, VisibilityTriangle, VisibilityWriter};
+use super::{Ahead, ONLY_WIDE};
 use crate::bounds::bins::BinEntry;
 use crate::bounds::primitives::TrianglePacket;
 use crate::fragment::interpolate::DepthPlane;
@@ -26,7 +26,7 @@ pub(super) fn rasterize<const N: usize>(
     pass: &TilePass<'_>,
     (work, entries): (&TileWork<'_>, &[BinEntry]),
     mut id: u32,
-    job: &mut TileJob<'_>,
+    (job, ahead): (&mut TileJob<'_>, &mut Ahead<'_>),
     scratch: &mut TileScratch<N>,
 ) {
     let mut rasterizer = Rasterizer::new(pass, work, OrderKind::Submission, job, scratch);
@@ -34,6 +34,7 @@ pub(super) fn rasterize<const N: usize>(
     let gathers = entries.len() > 1 && !rasterizer.crosses_triangles;
     let mut gathered = GatheredTriangles::new();
     for entry in entries {
+        ahead.step(work.level);
         let BinEntry::Triangles { packet, lanes } = *entry else {
             unreachable!("lines and points are drawn in order");
         };

@@ -1,10 +1,10 @@
 //! The end of a run: every visible sample is shaded once, by the triangle that it shows.
 //!
 //! A packet that shows one triangle is shaded whole. Of others each triangle's quads are shaded in
-//! packets that they share with those of other triangles and places; if fragments need no quads,
-//! each lane is shaded for the triangle that it shows (`joined.rs`, and `pixels.rs` where a pixel
-//! has four samples). Draws that share a pipeline and bindings are shaded together, and those of
-//! one colour come first.
+//! packets that they share with those of other triangles and places (`pixels.rs`); if fragments
+//! need no quads, each lane is shaded for the triangle that it shows (`joined.rs`, and `pixels.rs`
+//! where a pixel has four samples). Draws that share a pipeline and bindings are shaded together,
+//! and those of one colour come first.
 
 mod early;
 mod groups;
@@ -22,6 +22,7 @@ use super::rasterize::{rasterize_waiting, storage_of};
 use super::shortcuts::PrimitiveTexels;
 use super::writer::IdStorage;
 use super::{ONLY_WIDE, VisibilityScratch};
+use crate::fragment::cross_triangle::CrossPlanes;
 use crate::fragment::queue::PrimitivePacket;
 use crate::pipeline::RenderPipeline;
 use crate::pipeline::color_target::ColorTarget;
@@ -53,8 +54,9 @@ pub(super) struct ResolveScratch<const N: usize> {
     planes: Vec<f32>,
     quads: Quads<N>,
     parts: Parts<N>,
-    /// Pixels of one triangle's parts.
+    /// Pixels of a packet's triangles, and planes of these.
     fragments: Box<Fragments>,
+    cross: CrossPlanes,
     /// By shading group: the packets that show its triangles.
     packets: Vec<PacketSet>,
     texels: PrimitiveTexels,
@@ -72,6 +74,7 @@ impl<const N: usize> Default for ResolveScratch<N> {
             quads: Quads::default(),
             parts: Parts::default(),
             fragments: Box::default(),
+            cross: CrossPlanes::default(),
             packets: Vec::new(),
             texels: PrimitiveTexels::default(),
             draws: DrawTexels::default(),
@@ -232,12 +235,11 @@ impl<'a, 'j, 't, const N: usize> Resolver<'a, 'j, 't, N> {
         let level = self.pass.level;
         dispatch!(@wide level, s => self.packets(s, group, packets),
             scalar => unreachable!("{ONLY_WIDE}"));
-        if !self.scratch.visibility.resolve.quads.triangles().is_empty() {
-            dispatch!(@wide level, s => self.quads(s),
-                scalar => unreachable!("{ONLY_WIDE}"));
-        }
-        if const { N == 4 } && !self.scratch.visibility.resolve.parts.triangles().is_empty() {
-            dispatch!(@wide level, s => self.pixels(s),
+        let resolve = &self.scratch.visibility.resolve;
+        let [has_quads, has_parts] = [!resolve.quads.is_empty(), !resolve.parts.is_empty()];
+        if has_quads || has_parts {
+            // A shader needs quads, or not.
+            dispatch!(@wide level, s => self.noted(s, group, has_quads),
                 scalar => unreachable!("{ONLY_WIDE}"));
         }
         self.flush();
@@ -336,41 +338,6 @@ impl<'a, 'j, 't, const N: usize> Resolver<'a, 'j, 't, N> {
         match slot {
             Some(slot) => queue.join(s, &triangle, &packet, slot),
             None => queue.push(s, &triangle, &packet),
-        }
-    }
-
-    /// Queues the quads that were noted, triangle by triangle.
-    #[inline(always)]
-    fn quads<S: Lanes>(&mut self, s: S) {
-        let origin = self.origin;
-        for at in 0..self.scratch.visibility.resolve.quads.triangles().len() {
-            let id = self.scratch.visibility.resolve.quads.triangles()[at];
-            let visible = self.visible(s, id);
-            let mut next = self.scratch.visibility.resolve.quads.begin(id);
-            while next != NONE {
-                let resolve = &self.scratch.visibility.resolve;
-                let (quads, count, rest) = resolve.quads.four(next, origin);
-                next = rest;
-                if self.scratch.queue.is_full() {
-                    self.flush();
-                }
-                let TileScratch {
-                    queue, visibility, ..
-                } = &mut *self.scratch;
-                let resolve = &visibility.resolve;
-                let (triangle, front) = resolve.interpolant(visible, self.plan);
-                if count == quads.len() {
-                    queue.push_four_quads(s, &triangle, &quads, front);
-                    continue;
-                }
-                queue.interpolate_quads(s, &triangle, &quads);
-                for (at, quad) in quads.iter().enumerate().take(count) {
-                    if self.scratch.queue.is_full_of_quads() {
-                        self.flush();
-                    }
-                    self.scratch.queue.push_quad((at, quad), front);
-                }
-            }
         }
     }
 
