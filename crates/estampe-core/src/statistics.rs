@@ -53,6 +53,10 @@ pub struct Statistics {
     /// began. They depend on the SIMD level.
     #[doc(hidden)]
     pub fragments_listed_in_order: [u64; 2],
+    /// Packets of which shading left few fragments, and the packets that these were moved to before
+    /// they were tested and written. They depend on the SIMD level.
+    #[doc(hidden)]
+    pub packets_of_survivors: [u64; 2],
     /// Fragments of lines that became visible among the triangles of a run, to be stored when it
     /// ends. They depend on the SIMD level.
     #[doc(hidden)]
@@ -133,6 +137,7 @@ impl std::ops::AddAssign for Statistics {
                 &mut self.fragments_listed_in_order,
                 other.fragments_listed_in_order,
             ),
+            (&mut self.packets_of_survivors, other.packets_of_survivors),
         ] {
             for (count, other) in counts.iter_mut().zip(others) {
                 *count += other;

@@ -14,6 +14,10 @@ pub(crate) mod quad;
 
 pub(crate) mod place;
 
+pub(crate) mod fill;
+
+pub(crate) mod last_packet;
+
 mod centroid;
 
 pub(crate) mod cross_triangle;

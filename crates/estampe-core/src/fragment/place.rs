@@ -1,6 +1,7 @@
 //! The destination of a shaded packet's sixteen fragments: one packet of the tile, four quads of
 //! different packets, or sixteen pixels anywhere.
 
+use super::fill::LANE_NUMBERS;
 use super::quad::{QUAD, QUADS};
 use estampe_simd::{
     Bytes, LANES, Lanes, Select, SimdBase, bits_of, bits_of_mut, f32x16, outline, u32x4, u32x16,
@@ -93,6 +94,33 @@ impl Place {
             *to = *pixel as u16;
         }
         Self::Pixels(places)
+    }
+
+    /// The pixel of each fragment: packet·16 + lane.
+    #[inline(always)]
+    #[expect(clippy::cast_possible_truncation, reason = "16, and four")]
+    pub(crate) fn pixels<S: Lanes>(&self, s: S) -> u32x16<S> {
+        let mut pixels = LANE_NUMBERS;
+        match *self {
+            Self::Packet(packet) => {
+                for pixel in &mut pixels {
+                    *pixel += u32::from(packet) * LANES as u32;
+                }
+            }
+            Self::Quads(ref places) => {
+                for (pixels, place) in pixels.as_chunks_mut::<QUAD>().0.iter_mut().zip(places) {
+                    for (pixel, lane) in pixels.iter_mut().zip(0..) {
+                        *pixel = u32::from(*place) * QUAD as u32 + lane;
+                    }
+                }
+            }
+            Self::Pixels(ref places) => {
+                for (pixel, place) in pixels.iter_mut().zip(places) {
+                    *pixel = u32::from(*place);
+                }
+            }
+        }
+        u32x16::load_array(s, pixels)
     }
 
     /// Sixteen words of one sample, in the order of the fragments' lanes.

@@ -1,9 +1,10 @@
 //! Lists of fragments that fill packets, pixel by pixel.
 
+use crate::fragment::fill::{LANE_NUMBERS, samples_of};
 use crate::fragment::quad::QUAD;
 use crate::raster::Covered;
 use crate::raster::small::PIXELS;
-use estampe_simd::{Bytes, LANES, Lanes, Select, SimdBase, u32x16};
+use estampe_simd::{LANES, Lanes, SimdBase, u32x16};
 
 /// Listed pixels.
 #[derive(Debug)]
@@ -75,15 +76,8 @@ impl Fragments {
         lane: u8,
         covered: &Covered<N>,
     ) {
-        let zero = <u32x16<S> as SimdBase<S>>::splat(s, 0);
-        let mut samples = zero;
-        if const { N > 1 } {
-            for (mask, sample) in covered.masks.into_iter().zip(0..) {
-                let bit = <u32x16<S> as SimdBase<S>>::splat(s, 1 << sample);
-                samples |= s.mask_from_bits(mask).select(bit, zero);
-            }
-        }
-        let places = u32x16::load_array(s, NUMBERS) + u32::from(covered.packet) * 16;
+        let samples = samples_of(s, &covered.masks, false);
+        let places = u32x16::load_array(s, LANE_NUMBERS) + u32::from(covered.packet) * 16;
         let pixels = <u32x16<S> as SimdBase<S>>::splat(s, pixel_of(lane));
         self.add(s, covered.any(), [pixels, places, samples]);
     }
@@ -99,11 +93,8 @@ impl Fragments {
         (place, masks): (u16, [u16; N]),
     ) {
         let splat = |value| <u32x16<S> as SimdBase<S>>::splat(s, value);
-        let mut samples = splat(0);
-        for (mask, sample) in masks.into_iter().zip(0..) {
-            samples |= s.mask_from_bits(mask).select(splat(1 << sample), splat(0));
-        }
-        let places = u32x16::load_array(s, NUMBERS) + u32::from(place) * QUAD as u32;
+        let samples = samples_of(s, &masks, true);
+        let places = u32x16::load_array(s, LANE_NUMBERS) + u32::from(place) * QUAD as u32;
         // Sixteen are written, of which the next ones take the place of all but four.
         let lists = [&mut self.pixels, &mut self.places, &mut self.samples];
         for (list, values) in lists
@@ -146,9 +137,6 @@ impl Fragments {
     }
 }
 
-/// The number of each lane.
-const NUMBERS: [u32; LANES] = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15];
-
 /// The first pixel of a lane's triangle.
 #[inline(always)]
 #[expect(clippy::cast_possible_truncation, reason = "64")]
@@ -165,30 +153,4 @@ fn chunk_from(list: &mut [u32; Fragments::ROOM], from: usize) -> Option<&mut [u3
 fn sixteen_of(list: &[u32; Fragments::ROOM], from: usize) -> &[u32; LANES] {
     let sixteen = list.get(from..).and_then(<[u32]>::first_chunk);
     sixteen.unwrap_or(&[0; LANES])
-}
-
-/// The lanes of each sample, among some lanes, of fragments whose samples are listed. If a pixel
-/// has one sample, it is listed for quads alone: `are_quads`.
-#[inline(always)]
-pub(super) fn masks_of<S: Lanes, const N: usize>(
-    s: S,
-    samples: &[u32; LANES],
-    lanes: u16,
-    are_quads: bool,
-) -> [u16; N] {
-    let mut masks = [lanes; N];
-    if const { N > 1 } || are_quads {
-        let samples = u32x16::load_array_ref(s, samples);
-        for (mask, sample) in masks.iter_mut().zip(0u32..) {
-            *mask &= s.sign_bits((samples << (31 - sample)).bitcast());
-        }
-    }
-    masks
-}
-
-/// The lanes from one on, before another one.
-#[inline(always)]
-#[expect(clippy::cast_possible_truncation, reason = "sixteen bits")]
-pub(super) fn lanes_between(first: usize, end: usize) -> u16 {
-    ((1u32 << end) - (1 << first)) as u16
 }

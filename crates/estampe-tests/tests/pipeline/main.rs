@@ -29,6 +29,7 @@ mod shadow_volumes;
 mod shared_edges;
 mod small_lines;
 mod small_triangles;
+mod survivors;
 mod tessellation;
 mod tessellation_domain;
 mod textures;

@@ -9,6 +9,7 @@ mod pixels;
 mod quads;
 mod shaded;
 mod shared;
+mod survivors;
 
 pub(crate) use pixels::PixelPacket;
 pub(crate) use quads::QuadPlace;

@@ -6,10 +6,11 @@
 //! packets behind it, closes it.
 
 use super::{InOrder, InOrderScratch};
+use crate::fragment::fill::{lanes_between, masks_of};
 use crate::fragment::interpolate::{PixelInterpolant, WindowPixels};
 use crate::fragment::place::Place;
 use crate::fragment::queue::{PixelPacket, PrimitivePacket};
-use crate::tile_pass::fragments::{Fragments, lanes_between, masks_of};
+use crate::tile_pass::fragments::Fragments;
 use estampe_simd::{LANES, Lanes, SimdBase, u32x16};
 
 impl<const N: usize> InOrder<'_, '_, '_, '_, N> {

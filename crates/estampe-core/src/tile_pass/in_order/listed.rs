@@ -5,6 +5,7 @@ use super::tests::run_apart;
 use super::{InOrder, InOrderScratch};
 use crate::depth_format::clamp_depth;
 use crate::fragment::cross_triangle::{Row, bits_of_row};
+use crate::fragment::fill::lanes_between;
 use crate::fragment::interpolate::{VaryingSource, WindowPixels};
 use crate::fragment::place::{Place, indices_of};
 use crate::fragment::quad::QUAD;
@@ -12,7 +13,6 @@ use crate::fragment::queue::{PixelPacket, replace};
 use crate::per_sample::sample_tests::StoredSamples;
 use crate::plan::tile_plan::TestTiming;
 use crate::raster::pixel_list::Pixels;
-use crate::tile_pass::fragments::lanes_between;
 use estampe_simd::{
     Bytes, LANES, Lanes, Packet, Select, SimdBase, bits_of, dispatch, f32x16, u32x16,
 };

@@ -27,7 +27,6 @@ macro_rules! dispatch_samples {
 mod ahead;
 mod dense;
 mod flush;
-mod last_packet;
 mod layers;
 mod listed;
 mod rectangle;
@@ -45,6 +44,7 @@ use crate::fragment::interpolate::{
     DepthPlane, LineInterpolant, LineOrPoint, PointInterpolant, TriangleInterpolant, VaryingPlanes,
     VaryingSource, set_planes,
 };
+use crate::fragment::last_packet::LastPacket;
 use crate::per_sample::hiz::{BlockClasses, HizQuery};
 use crate::per_sample::source_over::Layers;
 use crate::plan::tile_plan::{TestTiming, TilePlan};
@@ -56,7 +56,6 @@ pub(super) use ahead::Ahead;
 use estampe_simd::{Lane, Lanes};
 use estampe_types::Interpolation;
 use estampe_types::state::ConservativeMode;
-use last_packet::LastPacket;
 use shade::PendingQuads;
 use small::{Batch, Listing, SmallScratch};
 use small_lines::LineBatch;
@@ -77,6 +76,8 @@ pub(super) struct InOrderScratch<const N: usize> {
     small: Box<SmallScratch<N>>,
     fragments: Box<Fragments>,
     last_packet: Box<LastPacket>,
+    /// The pixels of survivors of shading.
+    survivors: Box<LastPacket>,
     /// Large triangles that wait to be blended.
     layers: Box<Layers>,
 }
@@ -93,6 +94,7 @@ impl<const N: usize> Default for InOrderScratch<N> {
             small: Box::default(),
             fragments: Box::default(),
             last_packet: Box::default(),
+            survivors: Box::default(),
             layers: Box::default(),
         }
     }

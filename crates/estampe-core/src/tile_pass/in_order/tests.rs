@@ -106,19 +106,19 @@ impl<const N: usize> InOrder<'_, '_, '_, '_, N> {
     pub(super) fn test_late<S: Lanes>(&mut self, s: S) {
         let plan = self.work.plan;
         let count = self.samples.count();
-        let alpha_to_coverage = plan.pipeline.key().alpha_to_coverage;
-        let is_late = plan.timing != TestTiming::Early;
+        self.keep_shaded(s);
+        if const { N <= 4 && !S::IS_SCALAR } && self.shares_packets {
+            let scratch = &mut *self.scratch;
+            let last_packet = &mut scratch.in_order.survivors;
+            let gathered = scratch.queue.gather_survivors(s, last_packet);
+            scratch.statistics.packets_of_survivors[0] += gathered[0];
+            scratch.statistics.packets_of_survivors[1] += gathered[1];
+        }
+        if plan.timing == TestTiming::Early {
+            return;
+        }
         let mut written = 0;
         for mut packet in self.scratch.queue.late_packets() {
-            if alpha_to_coverage && let Some(alpha) = packet.alpha {
-                keep_by_alpha(s, alpha, &mut packet.masks[..count]);
-            }
-            if let Some(kept) = packet.sample_mask {
-                keep_by_mask(kept, &mut packet.masks[..count]);
-            }
-            if !is_late {
-                continue;
-            }
             if !plan.tests.is_empty() {
                 run_late(s, &plan.tests, &mut packet, count, self.job);
                 written |= packet.place.blocks();
@@ -130,6 +130,21 @@ impl<const N: usize> InOrder<'_, '_, '_, '_, N> {
         }
         if plan.tests.writes_depth() {
             self.scratch.hiz.invalidate(written);
+        }
+    }
+
+    /// Keeps the samples that alpha to coverage and the shader's sample mask leave.
+    #[inline(always)]
+    fn keep_shaded<S: Lanes>(&mut self, s: S) {
+        let count = self.samples.count();
+        let alpha_to_coverage = self.work.plan.pipeline.key().alpha_to_coverage;
+        for packet in self.scratch.queue.late_packets() {
+            if alpha_to_coverage && let Some(alpha) = packet.alpha {
+                keep_by_alpha(s, alpha, &mut packet.masks[..count]);
+            }
+            if let Some(kept) = packet.sample_mask {
+                keep_by_mask(kept, &mut packet.masks[..count]);
+            }
         }
     }
 }

@@ -6,7 +6,7 @@ use std::hint::select_unpredictable;
 
 /// Which pixels of the tile the last packet holds.
 #[derive(Debug)]
-pub(super) struct LastPacket {
+pub(crate) struct LastPacket {
     /// By pixel: the number of the last packet that holds it.
     packet_of: [u32; MAX_PACKETS * LANES],
     /// The number of the last packet.
@@ -25,7 +25,7 @@ impl Default for LastPacket {
 impl LastPacket {
     /// Begins a packet, which holds no pixel yet.
     #[inline(always)]
-    pub(super) fn begin(&mut self) {
+    pub(crate) fn begin(&mut self) {
         if self.number == u32::MAX {
             self.number = 0;
             self.packet_of.fill(0);
@@ -35,7 +35,7 @@ impl LastPacket {
 
     /// Notes all pixels of a packet of the tile.
     #[inline(always)]
-    pub(super) fn add_whole(&mut self, packet: u16) {
+    pub(crate) fn add_whole(&mut self, packet: u16) {
         let (packets, _) = self.packet_of.as_chunks_mut::<LANES>();
         packets[usize::from(packet) % MAX_PACKETS] = [self.number; LANES];
     }
@@ -43,7 +43,7 @@ impl LastPacket {
     /// Adds the pixels of some lanes. Returns the first lane that the packet cannot take, because
     /// it holds its pixel already, or [`LANES`]; with this lane another packet must begin.
     #[inline(always)]
-    pub(super) fn add(&mut self, places: &[u32; LANES], lanes: u16) -> usize {
+    pub(crate) fn add(&mut self, places: &[u32; LANES], lanes: u16) -> usize {
         let mut again = 0u32;
         for (lane, place) in places.iter().enumerate() {
             let of_pixel = &mut self.packet_of[*place as usize % (MAX_PACKETS * LANES)];
