@@ -89,8 +89,8 @@ pub struct Statistics {
     /// Runs of opaque triangles, tile by tile, whose visible samples were shaded at the run's end:
     /// hidden fragments are not shaded. None at the scalar level.
     pub visibility_runs: u64,
-    /// Primitives by the path that drew them, once for each tile that they touch. They depend on
-    /// the SIMD level.
+    /// Primitives by the path that drew them, once for each tile that they touch; two triangles
+    /// that are drawn as one box are one. They depend on the SIMD level.
     pub paths: PathCounts,
     /// Groups of sub-draws whose geometry was done together.
     #[doc(hidden)]

@@ -43,7 +43,11 @@ const LAYERS: &[&[&str]] = &[
     &["geometry::shading"],
     &["geometry::groups", "geometry::run", "geometry::restart"],
     &["geometry::cull", "geometry::cull_uncovered"],
-    &["geometry::vertex_order", "geometry::waiting"],
+    &[
+        "geometry::vertex_order",
+        "geometry::waiting",
+        "geometry::rectangles",
+    ],
     &["geometry::setup", "geometry::binning"],
     &["geometry::clip", "geometry::clip_positions"],
     &["geometry"],

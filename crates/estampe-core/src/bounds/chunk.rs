@@ -148,6 +148,8 @@ pub(crate) struct Chunk {
     /// The triangles of the packets up to the last one whose triangles are drawn one by one, in
     /// order: sixteen a packet, of other packets anything.
     one_by_one: Vec<PackedTriangle>,
+    /// By packet: those of these that make a rectangle with the next one.
+    rectangles: Vec<u16>,
     pub(crate) lines: Vec<LinePrimitive>,
     pub(crate) points: Vec<PointPrimitive>,
     /// Varyings of the vertices that clipping made, one after the other. The numbers of a run's
@@ -164,6 +166,7 @@ impl Chunk {
         self.parts.clear();
         self.triangles.clear();
         self.one_by_one.clear();
+        self.rectangles.clear();
         self.lines.clear();
         self.points.clear();
         self.clipped_varyings.clear();
@@ -171,8 +174,9 @@ impl Chunk {
         self.statistics = Statistics::default();
     }
 
-    /// Notes that the triangles of the last packet are drawn one by one.
-    pub(crate) fn take_apart_last(&mut self) {
+    /// Notes that the triangles of the last packet are drawn one by one, and those of them that
+    /// make a rectangle with the next one.
+    pub(crate) fn take_apart_last(&mut self, rectangles: u16) {
         let Some((packet, number)) = self.triangles.last() else {
             return;
         };
@@ -180,6 +184,15 @@ impl Chunk {
         self.one_by_one.resize(number * LANES, nothing);
         let lanes = (0..LANES).map(|lane| PackedTriangle::of_lane(packet, lane));
         self.one_by_one.extend(lanes);
+        self.rectangles.resize(number, 0);
+        self.rectangles.push(rectangles);
+    }
+
+    /// The triangles of a packet that was [taken apart](Chunk::take_apart_last) that make a
+    /// rectangle with the next one, which has no entries of its own.
+    #[inline(always)]
+    pub(crate) fn rectangles(&self, packet: u32) -> u16 {
+        self.rectangles[packet as usize]
     }
 
     /// The triangles of a packet that was [taken apart](Chunk::take_apart_last).

@@ -50,12 +50,14 @@ impl<S: Lanes> TileRanges<S> {
     }
 }
 
-/// Bins the last packet of a chunk, whose triangles have these x and y.
+/// Bins the last packet of a chunk, whose triangles have these x and y. A triangle of `rectangles`
+/// stands for the next one, too: both have one box.
 #[inline(always)]
 pub(crate) fn bin_packet<S: Lanes>(
     s: S,
     plan: &GeometryPlan,
     positions: [[i32x16<S>; 3]; 2],
+    rectangles: u16,
     chunk: &mut Chunk,
 ) {
     outline!(s, {
@@ -66,7 +68,7 @@ pub(crate) fn bin_packet<S: Lanes>(
         let packet = number(packet);
         let bins = &mut chunk.bins;
         bins.end_packet();
-        let used = u16::MAX >> (LANES - usize::from(last.len).min(LANES));
+        let used = u16::MAX >> (LANES - usize::from(last.len).min(LANES)) & !(rectangles << 1);
         let splat = |value: i32| <i32x16<S> as SimdBase<S>>::splat(s, value);
         let (columns, rows) = (ranges.x1 - ranges.x0, ranges.y1 - ranges.y0);
         let single = s.bits_of_mask((columns | rows).simd_eq(splat(0))) & used;
@@ -102,6 +104,7 @@ pub(crate) fn bin_packet<S: Lanes>(
                     triangles: last,
                     packet,
                     lane,
+                    fills_box: lane.is_in(rectangles),
                 };
                 bin_lane(plan, triangle, range, bins);
             }
@@ -116,11 +119,18 @@ struct PacketLane<'p> {
     /// The packet's number in the chunk.
     packet: u32,
     lane: Lane,
+    /// True if it stands for a rectangle.
+    fills_box: bool,
 }
 
 /// Bins one triangle, leaving out tiles of its box that it misses.
 fn bin_lane(plan: &GeometryPlan, triangle: PacketLane<'_>, range: TileRange, bins: &mut Bins) {
-    let PacketLane { packet, lane, .. } = triangle;
+    let PacketLane {
+        packet,
+        lane,
+        fills_box,
+        ..
+    } = triangle;
     let (columns, rows) = (range.x1 - range.x0, range.y1 - range.y0);
     // A triangle of many tiles has entries of its own: looking for one to merge with would
     // take time quadratic in tiles. Small ones before and after it must not merge across it.
@@ -128,8 +138,8 @@ fn bin_lane(plan: &GeometryPlan, triangle: PacketLane<'_>, range: TileRange, bin
     if many {
         bins.end_packet();
     }
-    let is_box = columns > 1 && rows > 1;
-    let edges = is_box.then(|| TileEdges::new(triangle, plan.sample_range));
+    let misses_some = columns > 1 && rows > 1 && !fills_box;
+    let edges = misses_some.then(|| TileEdges::new(triangle, plan.sample_range));
     let misses = |x, y| {
         let edges = edges.as_ref();
         edges.is_some_and(|edges| edges.miss(x, y, plan.grid.tile_log2()))
@@ -339,6 +349,7 @@ mod tests {
             is_opaque: true,
             has_colors: true,
             has_flat_varyings: false,
+            joins_rectangles: false,
         };
         let viewport = Viewport::of_target(SIZE[0], SIZE[1]);
         let (state, bias) = (PrimitiveState::default(), DepthBiasState::default());
@@ -392,7 +403,7 @@ mod tests {
             dispatch!(Level::best(), s => {
                 let load = |lanes: [i32; LANES]| i32x16::load_array(s, lanes);
                 let positions = [[load(x[0]), load(x[1]), load(x[2])], [load(y[0]), load(y[1]), load(y[2])]];
-                bin_packet(s, &plan, positions, &mut chunk);
+                bin_packet(s, &plan, positions, 0, &mut chunk);
             });
             chunk.bins.sort();
             for tile in 0..u32::try_from(plan.grid.tiles()).unwrap() {

@@ -44,6 +44,8 @@ pub(crate) mod depth_bias;
 mod vertex_order;
 mod waiting;
 
+mod rectangles;
+
 pub(crate) mod setup;
 
 pub(crate) mod binning;

@@ -34,6 +34,8 @@ pub(crate) struct GeometryPlan {
     pub(crate) interpolates: bool,
     /// True if some varying is the provoking vertex's.
     pub(crate) has_flat_varyings: bool,
+    /// True if tiles may draw two triangles that make a rectangle as one box.
+    pub(crate) joins_rectangles: bool,
     /// The tiles that primitives are binned to.
     pub(crate) grid: TileGrid,
 }
@@ -55,6 +57,9 @@ pub(crate) struct TargetGeometry {
     pub(crate) has_colors: bool,
     /// See [`GeometryPlan::has_flat_varyings`].
     pub(crate) has_flat_varyings: bool,
+    /// True if small triangles of the pipeline that are drawn in order are listed, and none of its
+    /// varyings is flat.
+    pub(crate) joins_rectangles: bool,
 }
 
 impl GeometryPlan {
@@ -83,6 +88,10 @@ impl GeometryPlan {
             draws_one_by_one,
             interpolates: draws_one_by_one || target.has_colors,
             has_flat_varyings: target.has_flat_varyings,
+            // Samples of a pixel may lie on both sides of a rectangle's side.
+            joins_rectangles: target.joins_rectangles
+                && cut_samples.is_none()
+                && target.sample_range == [128; 2],
             grid: target.grid,
         }
     }

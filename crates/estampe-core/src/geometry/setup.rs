@@ -12,6 +12,7 @@ use super::binning::bin_packet;
 use super::cull::WindowTriangles;
 use super::cull_uncovered::cull_uncovered;
 use super::plan::GeometryPlan;
+use super::rectangles::rectangles;
 use super::run::RunWork;
 use super::shaded_vertices::PackedVertex;
 use super::vertex_order::{Order, sorted};
@@ -39,6 +40,9 @@ pub(crate) struct Setup<'a> {
     plan: &'a GeometryPlan,
     /// The vertices of the batch.
     window: &'a [PackedVertex],
+    /// The varyings of the sub-draw's vertices, and how many scalars each has.
+    varyings: &'a [f32],
+    varying_scalars: usize,
     waiting: &'a mut Waiting,
     clipped: &'a mut Vec<PackedVertex>,
     /// The number of the first of `clipped` in the chunk.
@@ -77,6 +81,8 @@ impl<'a> Setup<'a> {
             level: work.level,
             plan: work.plan,
             window: vertices.of_group,
+            varyings: vertices.varyings,
+            varying_scalars: vertices.varying_scalars,
             waiting,
             clipped,
             first_clipped: chunk.align_clipped_varyings(vertices.varying_scalars),
@@ -244,10 +250,32 @@ impl<'a> Setup<'a> {
             w2.store_array(&mut packet.iw_at[2]);
         }
 
+        let mut pairs = 0;
         if takes_apart {
-            self.chunk.take_apart_last();
+            if self.plan.joins_rectangles {
+                pairs = self.rectangles_of_last(s);
+            }
+            self.chunk.take_apart_last(pairs);
         }
-        bin_packet(s, self.plan, [[x0, x1, x2], [y0, y1, y2]], self.chunk);
+        let positions = [[x0, x1, x2], [y0, y1, y2]];
+        bin_packet(s, self.plan, positions, pairs, self.chunk);
+    }
+
+    /// The lanes of the last packet whose triangle makes a rectangle with the next one.
+    #[inline(always)]
+    fn rectangles_of_last<S: Lanes>(&self, s: S) -> u16 {
+        let Some((packet, _)) = self.chunk.triangles.last() else {
+            return 0;
+        };
+        let n = self.varying_scalars;
+        let (shaded, clipped) = (self.varyings, self.chunk.clipped_varyings.as_slice());
+        rectangles(s, packet, |vertex| {
+            let (from, number) = match vertex.0 & VertexRef::CLIPPED {
+                0 => (shaded, vertex.0),
+                _ => (clipped, vertex.0 & !VertexRef::CLIPPED),
+            };
+            &from[number as usize * n..][..n]
+        })
     }
 
     /// x, y, depth and 1/w of sixteen vertices, as bits; their numbers count from `first` on.

@@ -20,6 +20,16 @@ pub(crate) struct DrawState<'a> {
     pub(crate) geometry: GeometryPlan,
 }
 
+/// Returns true if small triangles that are drawn in order are listed, and none of their varyings
+/// is flat.
+fn joins_rectangles(pipeline: &RenderPipeline) -> bool {
+    let key = pipeline.key();
+    !key.is_opaque
+        && key.shares_packets
+        && key.sample_mask.is_none()
+        && !pipeline.interface().varyings.contains(&Interpolation::Flat)
+}
+
 /// The inputs from which a state was resolved.
 #[derive(Debug, Clone)]
 struct StateKey<'a> {
@@ -47,6 +57,7 @@ impl<'a> DrawState<'a> {
             is_opaque: draw.pipeline.key().is_opaque,
             has_colors: draw.pipeline.key().has_colors,
             has_flat_varyings: varyings.contains(&Interpolation::Flat),
+            joins_rectangles: joins_rectangles(draw.pipeline),
         };
         let bias = descriptor.depth_stencil.map(|state| state.bias);
         let bias = bias.unwrap_or_default();

@@ -29,7 +29,6 @@ mod dense;
 mod flush;
 mod layers;
 mod listed;
-mod rectangle;
 mod shade;
 mod small;
 mod small_lines;
@@ -53,8 +52,7 @@ use crate::raster::triangle::TileTriangle;
 use crate::raster::{CoverageList, SampleSet, line, point};
 use crate::tile_path::TilePath;
 pub(super) use ahead::Ahead;
-use estampe_simd::{Lane, Lanes};
-use estampe_types::Interpolation;
+use estampe_simd::{LANES, Lane, Lanes};
 use estampe_types::state::ConservativeMode;
 use shade::PendingQuads;
 use small::{Batch, Listing, SmallScratch};
@@ -125,30 +123,29 @@ pub(super) fn draw<const N: usize>(
     drawing.ahead = (!is_scalar).then_some(ahead);
     drawing.planes = planes;
     let (mut batch, mut lines) = (Batch::default(), LineBatch::default());
-    // Samples of a pixel may lie on both sides of a rectangle's side.
-    let is_flat = drawing.source.modes.contains(&Interpolation::Flat);
-    let joins = const { N == 1 } && drawing.listing != Listing::None && !is_flat;
     let mut rectangles = 0;
     for entry in entries {
         match *entry {
-            BinEntry::Triangles { packet, lanes } => {
+            BinEntry::Triangles { packet, lanes } if is_scalar => {
                 for lane in Lane::all_of(lanes) {
-                    if is_scalar {
-                        let packet = &work.chunk.triangles[packet as usize];
-                        let triangle = PackedTriangle::of_lane(packet, lane.get());
-                        drawing.batch(&mut Batch::of(&triangle));
-                        continue;
-                    }
+                    let packet = &work.chunk.triangles[packet as usize];
+                    let triangle = PackedTriangle::of_lane(packet, lane.get());
+                    drawing.batch(&mut Batch::of(&triangle));
+                }
+            }
+            BinEntry::Triangles { packet, lanes } => {
+                let triangles = work.chunk.taken_apart(packet);
+                let pairs = work.chunk.rectangles(packet);
+                rectangles += u64::from((pairs & lanes).count_ones());
+                for lane in Lane::all_of(lanes) {
                     drawing.step();
-                    let triangle = &work.chunk.taken_apart(packet)[lane.get()];
-                    if joins && batch.join(triangle, &drawing.source) {
-                        rectangles += 1;
-                        continue;
-                    }
-                    if !batch.has_room(triangle) {
+                    let next = (lane.get() + 1) % LANES;
+                    let second = lane.is_in(pairs).then(|| &triangles[next]);
+                    let triangle = &triangles[lane.get()];
+                    if !batch.add(triangle, second) {
                         drawing.batch(&mut batch);
+                        batch.add(triangle, second);
                     }
-                    batch.add(triangle);
                 }
             }
             BinEntry::Line(number) => {

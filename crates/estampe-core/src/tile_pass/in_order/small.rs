@@ -7,7 +7,7 @@
 //! sixteen. Order is kept: a packet holds no pixel twice, and ends before one that comes again. If
 //! the shader looks at the neighbours of a pixel, the list is one of quads. A triangle of up to
 //! sixteen pixels across and down, as half of a glyph, is two lanes or four: the halves or quarters
-//! of its box. Two triangles that make a [rectangle](super::rectangle) are drawn as one box.
+//! of its box. Two triangles that make a [rectangle](crate::geometry::rectangles) are drawn as one box.
 //!
 //! ```text
 //!   16 triangles ─▶ list of pixels ─▶ early tests ─▶ packets of different pixels ─▶ queue
@@ -16,7 +16,6 @@
 
 use super::InOrder;
 use super::listed::ListedValues;
-use super::rectangle::is_rectangle;
 use crate::bounds::primitives::{LinePacket, PackedTriangle, TrianglePacket};
 use crate::fragment::cross_line::CrossLines;
 use crate::fragment::cross_triangle::{CrossPlanes, Row};
@@ -58,15 +57,13 @@ pub(super) struct Batch<'a> {
     len: usize,
     /// How many lanes are small triangles or parts of larger ones.
     small: usize,
-    /// The lanes of the last triangle, if it is small and no rectangle yet.
-    last: usize,
 }
 
 impl<'a> Batch<'a> {
     /// A triangle alone.
     pub(super) fn of(triangle: &'a PackedTriangle) -> Self {
         let mut batch = Self::default();
-        batch.add(triangle);
+        batch.add(triangle, None);
         batch
     }
 
@@ -82,66 +79,43 @@ impl<'a> Batch<'a> {
         (is_small, is_divided)
     }
 
-    /// Returns true if there are lanes for a triangle.
+    /// Adds a triangle, and with it the one that makes a rectangle with it, if there are lanes for
+    /// them; otherwise false.
     #[inline(always)]
-    pub(super) fn has_room(&self, triangle: &PackedTriangle) -> bool {
-        let (_, [columns, rows]) = Self::division_of(triangle);
-        self.len + (1 << usize::from(columns) << usize::from(rows)) <= LANES
-    }
-
-    /// Adds a triangle, for which there must be room.
-    #[inline(always)]
-    pub(super) fn add(&mut self, triangle: &'a PackedTriangle) {
+    pub(super) fn add(
+        &mut self,
+        triangle: &'a PackedTriangle,
+        second: Option<&'a PackedTriangle>,
+    ) -> bool {
         let (is_small, is_divided) = Self::division_of(triangle);
-        let before = self.len;
+        let [columns, rows] = is_divided.map(usize::from);
+        let count = 1 << columns << rows;
+        if self.len + count > LANES {
+            return false;
+        }
         for below in 0..=i32::from(is_divided[1]) {
             for right in 0..=i32::from(is_divided[0]) {
                 let part = Part {
                     from: [right * SIDE, below * SIDE],
                     is_divided,
-                    is_rectangle: false,
+                    is_rectangle: second.is_some(),
                 };
                 self.lanes[self.len % LANES] = Some(Member {
                     triangle,
-                    second: None,
+                    second,
                     part,
                 });
                 self.len += 1;
             }
         }
-        self.last = if is_small { self.len - before } else { 0 };
-        self.small += self.last;
-    }
-
-    /// Draws a triangle together with the last one, if both make a rectangle; otherwise false.
-    #[inline(always)]
-    pub(super) fn join(
-        &mut self,
-        triangle: &'a PackedTriangle,
-        source: &VaryingSource<'_>,
-    ) -> bool {
-        let before = self.len - self.last;
-        let Some(members) = self.lanes.get_mut(before..self.len) else {
-            return false;
-        };
-        let Some(Some(first)) = members.first() else {
-            return false;
-        };
-        if !is_rectangle(first.triangle, triangle, source) {
-            return false;
-        }
-        for member in members.iter_mut().flatten() {
-            member.second = Some(triangle);
-            member.part.is_rectangle = true;
-        }
-        self.last = 0;
+        self.small += if is_small { count } else { 0 };
         true
     }
 
     /// Forgets the triangles.
     #[inline(always)]
     fn clear(&mut self) {
-        (self.len, self.small, self.last) = (0, 0, 0);
+        (self.len, self.small) = (0, 0);
     }
 
     /// The lanes and their numbers.
