@@ -113,6 +113,21 @@ mod x86 {
     }
 
     #[inline(always)]
+    pub(crate) fn repeats_avx512(simd: Avx512, value: u32x16<Avx512>, lanes: u16) -> u16 {
+        fearless_simd::kernel!(
+            #[inline(always)]
+            fn kernel(simd: Avx512, value: u32x16<Avx512>, lanes: u16) -> u16 {
+                use core::arch::x86_64::*;
+                // By lane: the earlier lanes that are equal, one bit each.
+                let earlier = _mm512_conflict_epi32(value.into());
+                let among = _mm512_set1_epi32(i32::from(lanes));
+                _mm512_mask_test_epi32_mask(lanes, earlier, among)
+            }
+        );
+        kernel(simd, value, lanes)
+    }
+
+    #[inline(always)]
     pub(crate) fn list_avx512(
         simd: Avx512,
         bits: u16,

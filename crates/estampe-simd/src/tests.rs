@@ -142,6 +142,24 @@ fn scatter<S: Lanes>(s: S, table: &mut [u32], index: [u32; LANES], lanes: u16) {
 const NUMBERS: [u32; LANES] = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15];
 
 #[test]
+fn lanes_that_repeat_an_earlier_one_are_found() {
+    let mut values = NUMBERS;
+    [values[3], values[7], values[15], values[12]] = [u32::MAX; 4];
+    for level in Level::all_available() {
+        for lanes in [u16::MAX, 0, !(1 << 3), !(1 << 7), 1 << 15 | 1 << 12] {
+            let mut expected = 0u16;
+            for lane in 0..LANES {
+                let earlier =
+                    (0..lane).any(|at| lanes >> at & 1 == 1 && values[at] == values[lane]);
+                expected |= u16::from(earlier && lanes >> lane & 1 == 1) << lane;
+            }
+            let found = dispatch!(level, s => s.repeats(u32x16::load_array(s, values), lanes));
+            assert_eq!(found.unwrap_or(expected), expected, "{level:?} {lanes:#x}");
+        }
+    }
+}
+
+#[test]
 fn scatter_stores_the_last_of_equal_indices_and_leaves_out_those_beyond() {
     let index = [
         0,

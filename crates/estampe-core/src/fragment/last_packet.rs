@@ -1,7 +1,7 @@
 //! The pixels of the packet that is being filled.
 
 use crate::raster::MAX_PACKETS;
-use estampe_simd::LANES;
+use estampe_simd::{LANES, Lanes, SimdBase, u32x16};
 use std::hint::select_unpredictable;
 
 /// Which pixels of the tile the last packet holds.
@@ -23,9 +23,25 @@ impl Default for LastPacket {
 }
 
 impl LastPacket {
+    /// Begins a packet with the pixels of some lanes; `more` says that others may be added. Returns
+    /// the first lane that it cannot take, as [`LastPacket::add`] does.
+    #[inline(always)]
+    pub(crate) fn begin_with<S: Lanes>(
+        &mut self,
+        s: S,
+        (places, lanes): (&[u32; LANES], u16),
+        more: bool,
+    ) -> usize {
+        self.begin();
+        if !more && let Some(again) = s.repeats(u32x16::load_array_ref(s, places), lanes) {
+            return (u32::from(again) | 1 << LANES).trailing_zeros() as usize;
+        }
+        self.add(places, lanes)
+    }
+
     /// Begins a packet, which holds no pixel yet.
     #[inline(always)]
-    pub(crate) fn begin(&mut self) {
+    fn begin(&mut self) {
         if self.number == u32::MAX {
             self.number = 0;
             self.packet_of.fill(0);
@@ -59,6 +75,7 @@ impl LastPacket {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use estampe_simd::{Level, dispatch};
 
     #[test]
     fn a_packet_takes_no_pixel_twice() {
@@ -80,5 +97,29 @@ mod tests {
         last.begin();
         last.add_whole(6);
         assert_eq!(last.add(&places, u16::MAX), 0, "place 100 is in packet 6");
+    }
+
+    #[test]
+    fn a_packet_may_begin_with_all_of_its_pixels() {
+        let mut places = [0; LANES];
+        for (place, number) in places.iter_mut().zip(100..) {
+            *place = number;
+        }
+        places[9] = places[3];
+        let mut last = LastPacket::default();
+        for level in Level::all_available() {
+            for more in [false, true] {
+                let mut begin =
+                    |lanes| dispatch!(level, s => last.begin_with(s, (&places, lanes), more));
+                assert_eq!(begin(u16::MAX), 9, "{level:?}");
+                assert_eq!(begin(u16::MAX), 9, "{level:?}: as new as before");
+                assert_eq!(begin(!(1 << 3)), LANES, "{level:?}");
+                assert_eq!(begin(0x01FF), LANES, "{level:?}");
+            }
+        }
+        // The last packet may have more.
+        places[0] = 200;
+        assert_eq!(last.add(&places, 1), LANES);
+        assert_eq!(last.add(&places, 0b10), 1);
     }
 }

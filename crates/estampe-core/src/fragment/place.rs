@@ -74,17 +74,6 @@ pub(crate) fn indices_of<S: Lanes>(
 }
 
 impl Place {
-    /// Sixteen pixels, packet·16 + lane of each; or, if they are quads, four quads.
-    #[inline(always)]
-    #[expect(clippy::cast_possible_truncation, reason = "a tile has 4096 pixels")]
-    pub(crate) fn of(pixels: &[u32; LANES], are_quads: bool) -> Self {
-        if are_quads {
-            let quad = |number: usize| (pixels[number * QUAD] / QUAD as u32) as u16;
-            return Self::Quads([quad(0), quad(1), quad(2), quad(3)]);
-        }
-        Self::of_pixels(pixels)
-    }
-
     /// Sixteen pixels: packet·16 + lane, of each.
     #[inline(always)]
     #[expect(clippy::cast_possible_truncation, reason = "a tile has 4096 pixels")]
@@ -94,6 +83,14 @@ impl Place {
             *to = *pixel as u16;
         }
         Self::Pixels(places)
+    }
+
+    /// Four quads, given by their pixels: packet·16 + lane, of each.
+    #[inline(always)]
+    #[expect(clippy::cast_possible_truncation, reason = "a tile has 4096 pixels")]
+    pub(crate) fn of_quads(pixels: &[u32; LANES]) -> Self {
+        let quad = |number: usize| (pixels[number * QUAD] / QUAD as u32) as u16;
+        Self::Quads([quad(0), quad(1), quad(2), quad(3)])
     }
 
     /// The pixel of each fragment: packet·16 + lane.

@@ -145,6 +145,14 @@ pub trait Lanes: Simd {
         crate::permute::list_by_table(bits, first, out)
     }
 
+    /// Those of some lanes whose value an earlier one of them has, if the level has an instruction
+    /// for it.
+    #[inline(always)]
+    fn repeats(self, value: u32x16<Self>, lanes: u16) -> Option<u16> {
+        let _ = (value, lanes);
+        None
+    }
+
     /// The numbers of half floats, the low 16 bits of each lane, if the level has an instruction
     /// for it: exact, with quiet NaNs.
     #[inline(always)]

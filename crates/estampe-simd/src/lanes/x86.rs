@@ -262,6 +262,10 @@ impl Lanes for Avx512 {
         crate::permute::list_avx512(self, bits, first, out)
     }
     #[inline(always)]
+    fn repeats(self, value: u32x16<Self>, lanes: u16) -> Option<u16> {
+        Some(crate::permute::repeats_avx512(self, value, lanes))
+    }
+    #[inline(always)]
     fn lookup_three(self, table: &ByteTable, words: u32x16<Self>) -> [u32x16<Self>; 3] {
         crate::lookup::three_avx512(self, table, words)
     }

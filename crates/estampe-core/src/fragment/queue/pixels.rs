@@ -11,13 +11,26 @@ use std::hint::select_unpredictable;
 
 /// Sixteen pixels of triangles that are shaded alike.
 #[derive(Debug, Clone)]
-pub(crate) struct PixelPacket<const N: usize> {
-    /// Where they are: pixels or quads. Those of a mask are different pixels.
-    pub(crate) place: Place,
+pub(crate) struct PixelPacket<'a, const N: usize> {
+    /// Where they are: packet·16 + lane. Those of a mask are different pixels.
+    pub(crate) places: &'a [u32; LANES],
+    /// True if they are four quads.
+    pub(crate) are_quads: bool,
     /// By sample: the covered lanes.
     pub(crate) masks: [u16; N],
     /// The lanes whose triangle faces the viewer.
     pub(crate) front: u16,
+}
+
+impl<const N: usize> PixelPacket<'_, N> {
+    /// Their place as one. It is made where it is stored: copies of it wait for its parts.
+    #[inline(always)]
+    pub(crate) fn place(&self) -> Place {
+        if self.are_quads {
+            return Place::of_quads(self.places);
+        }
+        Place::of_pixels(self.places)
+    }
 }
 
 /// Where the inputs of a queued packet go.
@@ -51,29 +64,38 @@ impl<const N: usize> FragmentQueue<N> {
     /// that is not used on, or begins one, for which there must be room in the queue. Gives where
     /// their inputs go.
     #[inline(always)]
-    pub(crate) fn push_pixels(&mut self, packet: &PixelPacket<N>, lanes: u16) -> PacketInputs<'_> {
+    #[expect(clippy::cast_possible_truncation, reason = "a tile has 4096 pixels")]
+    pub(crate) fn push_pixels(
+        &mut self,
+        packet: &PixelPacket<'_, N>,
+        lanes: u16,
+    ) -> PacketInputs<'_> {
         // Quads that come later would be drawn before these pixels.
         self.close_quads();
         let is_first = lanes & 1 == 1;
         let slot = match self.open_pixels {
             Some((slot, _)) if !is_first => slot % CAPACITY,
-            _ => self.begin(packet.place.clone(), [0; N], 0).0,
+            _ => self.begin(packet.place(), [0; N], 0).0,
         };
         let shaded = self.shaded(slot);
         let used = LANES - lanes.leading_zeros() as usize;
         self.open_pixels = (used < LANES).then_some((slot, used));
-        match (&mut self.places[slot], &packet.place) {
-            (Place::Pixels(to), Place::Pixels(from)) => {
-                for (lane, (to, from)) in to.iter_mut().zip(from).enumerate() {
-                    *to = select_unpredictable(lanes >> lane & 1 == 1, *from, *to);
+        if !is_first {
+            match &mut self.places[slot] {
+                Place::Pixels(to) => {
+                    for (lane, (to, from)) in to.iter_mut().zip(packet.places).enumerate() {
+                        *to = select_unpredictable(lanes >> lane & 1 == 1, *from as u16, *to);
+                    }
                 }
-            }
-            (Place::Quads(to), Place::Quads(from)) => {
-                for (quad, (to, from)) in to.iter_mut().zip(from).enumerate() {
-                    *to = select_unpredictable(lanes >> (quad * QUAD) & 1 == 1, *from, *to);
+                Place::Quads(to) => {
+                    let from = packet.places.iter().step_by(QUAD);
+                    for (quad, (to, from)) in to.iter_mut().zip(from).enumerate() {
+                        let from = (*from / QUAD as u32) as u16;
+                        *to = select_unpredictable(lanes >> (quad * QUAD) & 1 == 1, from, *to);
+                    }
                 }
+                Place::Packet(_) => {}
             }
-            _ => {}
         }
         let mut any = 0;
         for (to, mask) in self.masks[slot].iter_mut().zip(packet.masks) {
@@ -103,7 +125,7 @@ impl<const N: usize> FragmentQueue<N> {
         &mut self,
         s: S,
         interpolant: &impl PixelInterpolant<S>,
-        (packet, lanes): (&PixelPacket<N>, u16),
+        (packet, lanes): (&PixelPacket<'_, N>, u16),
         pixels: WindowPixels<S>,
     ) {
         let is_first = lanes & 1 == 1;

@@ -86,12 +86,20 @@ impl Survivors {
     /// The pixels of those from one on, and how many of these a packet takes, which holds no pixel
     /// twice.
     #[inline(always)]
-    fn packet_from(&self, from: usize, pixels: &mut LastPacket) -> (&[u32; LANES], usize) {
+    fn packet_from<S: Lanes>(
+        &self,
+        s: S,
+        from: usize,
+        pixels: &mut LastPacket,
+    ) -> (&[u32; LANES], usize) {
         let places = self.places.get(from..).and_then(<[u32]>::first_chunk);
         let places = places.unwrap_or(&[0; LANES]);
         let end = LANES.min(self.len - from);
-        pixels.begin();
-        (places, pixels.add(places, lanes_between(0, end)).min(end))
+        let lanes = lanes_between(0, end);
+        (
+            places,
+            pixels.begin_with(s, (places, lanes), false).min(end),
+        )
     }
 }
 
@@ -115,7 +123,7 @@ impl<const N: usize> FragmentQueue<N> {
         let (mut packets, mut slot, mut done) = (0, 0, 0);
         let mut from = 0;
         while from < survivors.len {
-            let (places, taken) = survivors.packet_from(from, pixels);
+            let (places, taken) = survivors.packet_from(s, from, pixels);
             self.places[packets] = Place::of_pixels(places);
             let mut used = 0;
             while used < taken {

@@ -8,7 +8,6 @@
 use super::{InOrder, InOrderScratch};
 use crate::fragment::fill::{lanes_between, masks_of};
 use crate::fragment::interpolate::{PixelInterpolant, WindowPixels};
-use crate::fragment::place::Place;
 use crate::fragment::queue::{PixelPacket, PrimitivePacket};
 use crate::tile_pass::fragments::Fragments;
 use estampe_simd::{LANES, Lanes, SimdBase, u32x16};
@@ -64,11 +63,8 @@ impl<const N: usize> InOrder<'_, '_, '_, '_, N> {
         let mut next = 0;
         while next < count {
             let used = self.scratch.queue.open_pixels();
-            if used == 0 {
-                if self.scratch.queue.is_full() {
-                    self.flush();
-                }
-                self.scratch.in_order.last_packet.begin();
+            if used == 0 && self.scratch.queue.is_full() {
+                self.flush();
             }
             let InOrderScratch {
                 fragments,
@@ -79,9 +75,10 @@ impl<const N: usize> InOrder<'_, '_, '_, '_, N> {
             let end = LANES.min(used + count - next);
             let wanted = lanes_between(used, end);
             // Which fragment a pixel shows is found before they are shaded.
-            let first_again = match is_shown {
-                true => LANES,
-                false => last_packet.add(places, wanted),
+            let first_again = match (is_shown, used) {
+                (true, _) => LANES,
+                (false, 0) => last_packet.begin_with(s, (places, wanted), end < LANES),
+                (false, _) => last_packet.add(places, wanted),
             };
             let end = end.min(first_again);
             if end <= used {
@@ -90,7 +87,8 @@ impl<const N: usize> InOrder<'_, '_, '_, '_, N> {
             }
             let lanes = lanes_between(used, end);
             let packet = PixelPacket {
-                place: Place::of_pixels(places),
+                places,
+                are_quads: false,
                 masks: masks_of(s, samples, lanes, false),
                 front: if front { lanes } else { 0 },
             };

@@ -7,7 +7,7 @@ use crate::depth_format::clamp_depth;
 use crate::fragment::cross_triangle::{Row, bits_of_row};
 use crate::fragment::fill::lanes_between;
 use crate::fragment::interpolate::{VaryingSource, WindowPixels};
-use crate::fragment::place::{Place, indices_of};
+use crate::fragment::place::indices_of;
 use crate::fragment::quad::QUAD;
 use crate::fragment::queue::{PixelPacket, replace};
 use crate::per_sample::sample_tests::StoredSamples;
@@ -186,9 +186,6 @@ impl<const N: usize> InOrder<'_, '_, '_, '_, N> {
         } else {
             self.scratch.queue.open_pixels()
         };
-        if used == 0 || is_shown {
-            last_packet.begin();
-        }
         let [pixels, places, of_samples] = fragments.sixteen(from, used);
         let (pixels, places) = (Pixels(u32x16::load_array_ref(s, pixels)), *places);
         let of_samples = u32x16::load_array_ref(s, of_samples);
@@ -202,10 +199,13 @@ impl<const N: usize> InOrder<'_, '_, '_, '_, N> {
         let alive = masks.iter().fold(0, |any, mask| any | mask);
         // Which fragment a pixel shows is found before they are shaded: only those that are tested
         // together must be of different pixels.
-        let mut end = match is_shown && !tests {
-            true => wanted,
-            false => last_packet.add(&places, alive).min(wanted),
+        let mut end = match (is_shown, used) {
+            (true, _) if !tests => LANES,
+            (true, _) => last_packet.begin_with(s, (&places, alive), false),
+            (false, 0) => last_packet.begin_with(s, (&places, alive), !quads && wanted < LANES),
+            (false, _) => last_packet.add(&places, alive),
         };
+        end = end.min(wanted);
         if quads {
             end -= end % QUAD;
         }
@@ -223,13 +223,14 @@ impl<const N: usize> InOrder<'_, '_, '_, '_, N> {
             *mask &= lanes;
         }
         let mut packet = PixelPacket {
-            place: Place::of(&places, quads),
+            places: &places,
+            are_quads: quads,
             masks,
             front: bits_of_row(s, V::front(scratch), row),
         };
         let first = scratch.small.distances(s, pixels);
         if tests {
-            let place = &packet.place;
+            let place = &packet.place();
             for (sample, place_of_depth) in depths_at.into_iter().enumerate().take(samples) {
                 let mask = &mut packet.masks[sample];
                 let distances = moved(first, offsets[0], place_of_depth);

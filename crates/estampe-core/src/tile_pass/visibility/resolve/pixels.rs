@@ -15,7 +15,6 @@ use crate::fragment::cross_triangle::{Row, bits_of_row};
 use crate::fragment::fill::{lanes_between, masks_of};
 use crate::fragment::interpolate::VaryingSource;
 use crate::fragment::interpolate::WindowPixels;
-use crate::fragment::place::Place;
 use crate::fragment::quad::QUAD;
 use crate::fragment::queue::{PixelPacket, replace};
 use crate::raster::pixel_list::Pixels;
@@ -164,7 +163,8 @@ impl<const N: usize> Resolver<'_, '_, '_, N> {
         let triangles = noted.triangles;
         // Two triangles at one pixel have different samples, in whatever order.
         let packet = PixelPacket {
-            place: Place::of(places, noted.are_quads),
+            places,
+            are_quads: noted.are_quads,
             masks: masks_of(s, samples, lanes, noted.are_quads),
             front: bits_of_row(s, triangles.front, row),
         };
