@@ -236,8 +236,20 @@ pub(crate) struct WindowVertex {
     pub(crate) vertex: VertexRef,
 }
 
+impl WindowVertex {
+    /// Sets it to a vertex of the draw: x, y, depth and 1/w as bits.
+    #[inline(always)]
+    pub(crate) fn set(&mut self, vertex: u32, [x, y, z, iw]: &[u32; 4]) {
+        self.x = x.cast_signed();
+        self.y = y.cast_signed();
+        self.z = f32::from_bits(*z);
+        self.iw = f32::from_bits(*iw);
+        self.vertex = VertexRef(vertex);
+    }
+}
+
 /// A line, from its first to its second end: a cache line.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 #[repr(align(64))]
 pub(crate) struct LinePrimitive {
     pub(crate) ends: [WindowVertex; 2],

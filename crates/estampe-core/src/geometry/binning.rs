@@ -225,23 +225,22 @@ impl LineTiles {
     }
 }
 
-/// Adds the line in a lane, which touches some tile, to a chunk.
+/// Adds an empty line to a chunk, in the only tile that the line in a lane touches. It is filled
+/// where it lies: a line made elsewhere is copied as a whole, which waits for the stores of its
+/// parts.
 #[inline(always)]
-pub(crate) fn push_line_of(
+pub(crate) fn push_line_of<'c>(
     plan: &GeometryPlan,
     tiles: &LineTiles,
     lane: Lane,
-    line: LinePrimitive,
-    chunk: &mut Chunk,
-) {
-    if !lane.is_in(tiles.one) {
-        push_line(plan, line, chunk);
-        return;
-    }
-    let entry = BinEntry::Line(number(chunk.lines.len()));
-    chunk.lines.push(line);
+    chunk: &'c mut Chunk,
+) -> &'c mut LinePrimitive {
+    let number_in_chunk = chunk.lines.len();
+    let entry = BinEntry::Line(number(number_in_chunk));
     chunk.statistics.primitives_binned += 1;
     chunk.bins.push(tiles.only(plan, lane), entry);
+    chunk.lines.push(LinePrimitive::default());
+    &mut chunk.lines[number_in_chunk]
 }
 
 /// Adds a point to a chunk.

@@ -100,22 +100,16 @@ impl LineWalk {
         let used = u16::MAX >> (LANES - (count as usize).min(LANES));
         for lane in Lane::all_of((tiles.any | clipped) & used) {
             let [a, b, provoking] = lane.of(&group.vertices);
-            let outline = Outline::own(provoking);
-            let ends = [
-                work.vertices.window_vertex(a),
-                work.vertices.window_vertex(b),
-            ];
-            let [Some(a_in_window), Some(b_in_window)] = ends else {
-                self.draw_line(work, [a, b], outline, setup, clip);
+            if !lane.is_in(tiles.one & !clipped) {
+                self.draw_line(work, [a, b], Outline::own(provoking), setup, clip);
                 continue;
-            };
-            let line = LinePrimitive {
-                ends: [a_in_window, b_in_window],
-                provoking: outline.provoking,
-                front: outline.front,
-                stipple: 0,
-            };
-            push_line_of(work.plan, &tiles, lane, line, setup.chunk);
+            }
+            let line = push_line_of(work.plan, &tiles, lane, setup.chunk);
+            for (to, vertex) in line.ends.iter_mut().zip([a, b]) {
+                to.set(vertex, &work.vertices.window[vertex as usize]);
+            }
+            line.provoking = VertexRef(provoking);
+            line.front = true;
         }
     }
 
