@@ -195,9 +195,10 @@ impl<'a> Setup<'a> {
         let waiting = &*self.waiting;
         let [v0, v1, v2] = [0, 1, 2].map(|corner| first_half(&waiting.vertex[corner]));
         let first = u32x16::load_array_ref(s, first_half(&waiting.first_vertex));
-        let [x0, y0, z0, w0] = self.read(s, v0, first);
-        let [x1, y1, z1, w1] = self.read(s, v1, first);
-        let [x2, y2, z2, w2] = self.read(s, v2, first);
+        let live = u16::MAX >> (LANES - len);
+        let [x0, y0, z0, w0] = self.read(s, v0, first, live);
+        let [x1, y1, z1, w1] = self.read(s, v1, first, live);
+        let [x2, y2, z2, w2] = self.read(s, v2, first, live);
 
         // The scalar level draws everything one by one, from packets.
         let takes_apart = const { !S::IS_SCALAR } && self.plan.draws_one_by_one;
@@ -206,7 +207,6 @@ impl<'a> Setup<'a> {
             true => packets.push_passing(),
             false => packets.push_stale(),
         };
-        let live = u16::MAX >> (LANES - len);
         // What is not read is not written: it would go to memory, and come from there before.
         let interpolates = const { S::IS_SCALAR } || self.plan.interpolates;
         let provoking = first_half(&waiting.provoking);
@@ -278,26 +278,47 @@ impl<'a> Setup<'a> {
         })
     }
 
-    /// x, y, depth and 1/w of sixteen vertices, as bits; their numbers count from `first` on.
+    /// x, y, depth and 1/w of the vertices in the lanes `live`, as bits; their numbers count from
+    /// `first` on. Other lanes hold vertices of triangles that waited before, perhaps of another
+    /// run: any will do, or zeros.
     #[inline(always)]
-    fn read<S: Lanes>(&self, s: S, vertices: &[u32; LANES], first: u32x16<S>) -> [u32x16<S>; 4] {
+    fn read<S: Lanes>(
+        &self,
+        s: S,
+        vertices: &[u32; LANES],
+        first: u32x16<S>,
+        live: u16,
+    ) -> [u32x16<S>; 4] {
         outline!(s, {
-            let vertices = (u32x16::load_array_ref(s, vertices) + first).to_array();
-            // Unused lanes hold vertices of triangles that waited before, perhaps of another run:
-            // any will do, or zeros.
-            let mut records = [&[0; 4]; LANES];
-            for (record, &vertex) in records.iter_mut().zip(&vertices) {
-                let found = if vertex & VertexRef::CLIPPED == 0 {
-                    self.window.get(vertex as usize)
-                } else {
-                    let number = (vertex & !VertexRef::CLIPPED).wrapping_sub(self.first_clipped);
-                    self.clipped.get(number as usize)
-                };
-                if let Some(found) = found {
-                    *record = found;
-                }
+            let vertices = u32x16::load_array_ref(s, vertices) + first;
+            let words = self.window.as_flattened();
+            // References to vertices that clipping made are greater than any number in the group,
+            // and products with four stay below 2³².
+            let end = u32::try_from(words.len()).unwrap_or(0) / 4;
+            let in_group = vertices.simd_lt(<u32x16<S> as SimdBase<S>>::splat(s, end));
+            if s.bits_of_mask(in_group) & live == live {
+                s.gather_four(words, vertices << 2)
+            } else {
+                components_of(s, &self.records_of(&vertices.to_array()))
             }
-            components_of(s, &records)
         })
+    }
+
+    /// Vertices of which clipping may have made some.
+    #[inline(never)]
+    fn records_of(&self, vertices: &[u32; LANES]) -> [&PackedVertex; LANES] {
+        let mut records = [&[0; 4]; LANES];
+        for (record, &vertex) in records.iter_mut().zip(vertices) {
+            let found = if vertex & VertexRef::CLIPPED == 0 {
+                self.window.get(vertex as usize)
+            } else {
+                let number = (vertex & !VertexRef::CLIPPED).wrapping_sub(self.first_clipped);
+                self.clipped.get(number as usize)
+            };
+            if let Some(found) = found {
+                *record = found;
+            }
+        }
+        records
     }
 }

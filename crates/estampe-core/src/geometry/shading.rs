@@ -207,17 +207,10 @@ fn number_vertices<S: Lanes>(
         (Some(vertex), None) if follows && vertex <= u32::MAX - LANES as u32 => Some(vertex),
         _ => None,
     };
-    if let Some(vertex) = index.first {
-        for (lane, to) in index.vertex.0.iter_mut().enumerate() {
-            *to = vertex + lane as u32;
-        }
-        index.instance.0 = [source.first_instance.wrapping_add(turn); LANES];
-        return;
-    }
     let left = last - first;
-    if source.sparse.is_none() && left < source.count - start {
-        // All in one instance. Fetching loads whole vectors, which is fast only if they were
-        // stored as such.
+    if source.sparse.is_none() && left.min(LANES as u32 - 1) < source.count - start {
+        // All in one instance. They are copied and loaded as whole vectors, which is fast only if
+        // they were stored as such.
         let splat = |value| <u32x16<S> as SimdBase<S>>::splat(s, value);
         let lanes = u32x16::load_array(s, LANE_NUMBERS).min(splat(left));
         let vertices = lanes + splat(source.first_vertex.wrapping_add(start));
