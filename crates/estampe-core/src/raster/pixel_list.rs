@@ -6,7 +6,7 @@
 //! fill packets because they come from a list, `instances` took 51 ms in place of 63.
 
 use super::small::PIXELS;
-use estampe_simd::{Bytes, LANES, Lanes, SimdBase, i32x16, u32x16};
+use estampe_simd::{Bytes, LANES, Lanes, Select, SimdBase, i32x16, u32x16};
 
 /// Pixels of a packet's triangles, at most.
 const MOST: usize = LANES * PIXELS;
@@ -130,6 +130,23 @@ impl PixelList {
         let places = places.zip(self.depths.as_chunks_mut().0);
         let pixels = self.pixels.as_chunks().0.iter().zip(places);
         pixels.take(self.len.div_ceil(LANES))
+    }
+
+    /// The blocks of 2ⁿ samples that hold the pixels, one bit each.
+    #[inline(always)]
+    pub(crate) fn blocks<S: Lanes>(&self, s: S, log2: u32) -> u16 {
+        let splat = |value| <u32x16<S> as SimdBase<S>>::splat(s, value);
+        let mut blocks = splat(0);
+        let places = self.places.as_chunks().0.iter().zip((0..self.len).step_by(LANES));
+        for (places, from) in places {
+            let listed = u16::MAX >> (LANES - (self.len - from).min(LANES));
+            let block = splat(1) << (u32x16::load_array_ref(s, places) >> log2);
+            blocks |= s.mask_from_bits(listed).select(block, splat(0));
+        }
+        let blocks = blocks.to_array();
+        #[expect(clippy::cast_possible_truncation, reason = "a tile has sixteen blocks")]
+        let blocks = blocks.iter().fold(0, |all, block| all | block) as u16;
+        blocks
     }
 
     /// Number, place and depth of each pixel.

@@ -1,11 +1,12 @@
 //! The visibility buffer of one tile: which triangle each sample shows, by its id.
 
+use super::ONLY_WIDE;
 use super::shortcuts::SinglePrimitiveBlocks;
 use crate::bounds::bins::BinEntry;
 use crate::bounds::chunk::Chunk;
 use crate::plan::tile_plan::TilePlan;
 use crate::raster::MAX_PACKETS;
-use estampe_simd::LANES;
+use estampe_simd::{LANES, Lanes, Level, SimdBase, SimdMask, dispatch, u8x16};
 use std::ops::Range;
 
 /// The bit of ids that name a shaded fragment rather than a triangle.
@@ -41,6 +42,35 @@ pub(super) struct ShadingGroup {
     pub(super) sub_draw: u32,
 }
 
+/// Samples of a tile where a pixel has one sample, or four.
+pub(super) const TILE_SAMPLES: usize = MAX_PACKETS * LANES;
+
+/// Samples that hold an id of a small primitive: a byte each, 1 of those that do.
+#[derive(Debug)]
+pub(super) struct ShownSamples {
+    samples: Box<[u8; TILE_SAMPLES]>,
+    /// False if none is noted.
+    has_any: bool,
+}
+
+impl Default for ShownSamples {
+    fn default() -> Self {
+        Self {
+            samples: Box::new([0; TILE_SAMPLES]),
+            has_any: false,
+        }
+    }
+}
+
+impl ShownSamples {
+    /// The bytes, to note samples in.
+    #[inline(always)]
+    pub(super) fn begin(&mut self) -> &mut [u8; TILE_SAMPLES] {
+        self.has_any = true;
+        &mut self.samples
+    }
+}
+
 /// A run of triangles in one tile.
 #[derive(Debug)]
 pub(super) struct VisibilityBuffer<const N: usize> {
@@ -48,8 +78,10 @@ pub(super) struct VisibilityBuffer<const N: usize> {
     pub(super) groups: Vec<ShadingGroup>,
     /// True if some draw may have one colour.
     pub(super) has_one_color_draws: bool,
-    /// By packet and sample: the lanes that hold an id in place of a colour.
+    /// By packet and sample: the lanes that hold an id in place of a colour, but for those that are
+    /// noted in `shown` since [`VisibilityBuffer::take_shown`].
     pub(super) unresolved: Box<[[u16; N]; MAX_PACKETS]>,
+    pub(super) shown: ShownSamples,
     /// Blocks that show one triangle at every sample, whose ids are not written.
     pub(super) single: SinglePrimitiveBlocks,
     /// The ids of targets whose first texel is not one word: by packet and sample.
@@ -63,6 +95,7 @@ impl<const N: usize> Default for VisibilityBuffer<N> {
             groups: Vec::new(),
             has_one_color_draws: false,
             unresolved: Box::new([[0; N]; MAX_PACKETS]),
+            shown: ShownSamples::default(),
             single: SinglePrimitiveBlocks::default(),
             ids: vec![[0; LANES]; most_lines(N)].into(),
         }
@@ -152,6 +185,26 @@ impl<const N: usize> VisibilityBuffer<N> {
         let next = u32::try_from(self.triangles.len()).unwrap_or(SHADED);
         debug_assert!(next < SHADED, "ids have 31 bits");
         next
+    }
+
+    /// Makes `unresolved` complete.
+    pub(super) fn take_shown(&mut self, level: Level) {
+        if std::mem::take(&mut self.shown.has_any) {
+            dispatch!(@wide level, s => self.take_shown_lanes(s),
+                scalar => unreachable!("{ONLY_WIDE}"));
+        }
+    }
+
+    #[inline(always)]
+    #[expect(clippy::cast_possible_truncation, reason = "a mask of sixteen lanes")]
+    fn take_shown_lanes<S: Lanes>(&mut self, s: S) {
+        let none = <u8x16<S> as SimdBase<S>>::splat(s, 0);
+        let lines = self.shown.samples.as_chunks_mut::<LANES>().0;
+        for (line, unresolved) in lines.iter_mut().zip(self.unresolved.as_flattened_mut()) {
+            let shown = u8x16::load_array_ref(s, line).simd_gt(none);
+            *unresolved |= shown.to_bitmask() as u16;
+            none.store_array(line);
+        }
     }
 
     /// True if a packet shows a triangle at every sample.

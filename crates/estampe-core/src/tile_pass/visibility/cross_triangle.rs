@@ -12,7 +12,6 @@ use crate::fragment::cross_triangle::{CrossFragments, CrossPlanes, bits_of_row};
 use crate::fragment::queue::FragmentQueue;
 use crate::per_sample::color_writer::ColorWriter;
 use crate::plan::tile_plan::TilePlan;
-use crate::raster::pixel_list::lane_of;
 use crate::tile_pass::{TileScratch, TileWork};
 use estampe_simd::{LANES, Lanes, Level};
 
@@ -37,8 +36,6 @@ pub(super) struct ByFragment<'a> {
     next: usize,
     /// The id of the first place.
     first: u32,
-    /// The triangles that have fragments.
-    lanes: u16,
 }
 
 impl Numbering for ByFragment<'_> {
@@ -55,15 +52,14 @@ impl Numbering for ByFragment<'_> {
             *place = pixel;
         }
         self.next += usize::from(is_shown);
-        self.lanes |= u16::from(is_shown) << lane_of(pixel);
     }
 }
 
 impl ByFragment<'_> {
-    /// The place behind the last fragment, and the triangles that have fragments.
+    /// The place behind the last fragment.
     #[inline(always)]
-    pub(super) fn shown(self) -> (usize, u16) {
-        (self.next, self.lanes)
+    pub(super) fn end(self) -> usize {
+        self.next
     }
 }
 
@@ -76,13 +72,12 @@ impl CrossTriangleScratch {
             pixels: self.fragments.begin(self.open),
             next: self.open,
             first: SHADED | (first_packet * 16),
-            lanes: 0,
         }
     }
 
-    /// Ends the fragments of a packet of triangles.
+    /// Ends the fragments of a packet of triangles, which are of those in `lanes`.
     #[inline(always)]
-    pub(super) fn end(&mut self, (end, lanes): (usize, u16)) {
+    pub(super) fn end(&mut self, end: usize, lanes: u16) {
         self.fragments.end(end, lanes);
     }
 
@@ -139,8 +134,10 @@ impl<const N: usize> Rasterizer<'_, '_, '_, N> {
     /// Queues the fragments of a packet of small triangles.
     #[inline(always)]
     pub(super) fn shade_cross_triangle<S: Lanes>(&mut self, s: S, packet: &TrianglePacket) {
-        let source = self.work.varyings();
         let cross = &mut self.scratch.visibility.cross;
+        let Some(source) = self.varyings else {
+            return;
+        };
         if cross.fragments.is_empty() {
             return;
         }

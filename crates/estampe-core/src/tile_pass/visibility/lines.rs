@@ -11,18 +11,15 @@
 //! ```
 
 use super::MAX_RUN;
+use super::buffer::TILE_SAMPLES;
 use super::rasterize::{rasterize_waiting, storage_of};
 use super::resolve::resolve;
 use super::writer::{IdStorage, VisibilityWriter};
 use crate::plan::tile_plan::TilePlan;
-use crate::raster::MAX_PACKETS;
 use crate::tile_pass::{TileJob, TilePass, TileScratch, TileWork};
 use crate::tile_path::TilePath;
 use estampe_simd::{LANES, Level};
 use std::hint::select_unpredictable;
-
-/// Pixels of a tile of one sample.
-const TILE_PIXELS: usize = MAX_PACKETS * LANES;
 
 /// Makes the run of visibility ready for the lines of a run of a chunk. Returns false if they are
 /// to be drawn in order instead: because no triangle waits to be shaded, or they may not join.
@@ -82,17 +79,17 @@ impl<const N: usize> TileScratch<N> {
             IdStorage::Attachment => job.colors[0].as_flattened_mut(),
             IdStorage::BufferData | IdStorage::None => buffer.ids.as_flattened_mut(),
         };
-        let ids: Option<&mut [u32; TILE_PIXELS]> = ids.first_chunk_mut();
+        let ids: Option<&mut [u32; TILE_SAMPLES]> = ids.first_chunk_mut();
         let Some(ids) = ids else {
             debug_assert!(N > 1, "a tile of one sample");
             return;
         };
-        let unresolved = buffer.unresolved.as_flattened_mut();
+        let shown = buffer.shown.begin();
         for ((lane, place), id) in places.iter().enumerate().zip(cross.first_id_of_last()..) {
-            let place = *place as usize % TILE_PIXELS;
-            let is_shown = lanes >> lane & 1;
-            ids[place] = select_unpredictable(is_shown == 1, id, ids[place]);
-            unresolved[place / LANES] |= is_shown << (place % LANES);
+            let place = *place as usize % TILE_SAMPLES;
+            let is_shown = lanes >> lane & 1 == 1;
+            ids[place] = select_unpredictable(is_shown, id, ids[place]);
+            shown[place] |= u8::from(is_shown);
         }
     }
 

@@ -7,7 +7,7 @@ use super::writer::{IdStorage, VisibilityTriangle, VisibilityWriter};
 use super::{Ahead, ONLY_WIDE};
 use crate::bounds::bins::BinEntry;
 use crate::bounds::primitives::TrianglePacket;
-use crate::fragment::interpolate::DepthPlane;
+use crate::fragment::interpolate::{DepthPlane, VaryingSource};
 use crate::per_sample::hiz::{BlockClasses, HizQuery};
 use crate::per_sample::packet_ranges::PacketRanges;
 use crate::plan::tile_plan::TilePlan;
@@ -32,6 +32,9 @@ pub(super) fn rasterize<const N: usize>(
     let mut rasterizer = Rasterizer::new(pass, work, OrderKind::Submission, job, scratch);
     // Fragments of small triangles that are shaded at once read more than is gathered.
     let gathers = entries.len() > 1 && !rasterizer.crosses_triangles;
+    if rasterizer.crosses_triangles {
+        rasterizer.varyings = Some(work.varyings());
+    }
     let mut gathered = GatheredTriangles::new();
     for entry in entries {
         ahead.step(work.level);
@@ -65,6 +68,7 @@ pub(super) fn rasterize_waiting<const N: usize>(
     if scratch.visibility.waiting.is_empty() {
         return;
     }
+    scratch.visibility.buffer.take_shown(pass.level);
     let mut waiting = std::mem::take(&mut scratch.visibility.waiting);
     let order = waiting.sort();
     let mut work: Option<TileWork<'_>> = None;
@@ -103,6 +107,8 @@ pub(super) struct Rasterizer<'a, 'j, 't, const N: usize> {
     /// True if fragments of small triangles are shaded immediately, in packets of one fragment of
     /// each of sixteen triangles.
     pub(super) crosses_triangles: bool,
+    /// The varyings that these read.
+    pub(super) varyings: Option<VaryingSource<'a>>,
     /// True if triangles change stencil values and store no depth.
     counts: bool,
     /// Samples that passed all tests, where a query counts them.
@@ -125,6 +131,7 @@ impl<'a, 'j, 't, const N: usize> Rasterizer<'a, 'j, 't, N> {
             order,
             storage: storage_of(work.plan),
             crosses_triangles: work.plan.path == TilePath::VisibilityCrossTriangle,
+            varyings: None,
             counts: PacketRanges::serve(&work.plan.tests),
             passed: 0,
             job,

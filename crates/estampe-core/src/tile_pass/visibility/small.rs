@@ -2,16 +2,13 @@
 //! sample, and the list tested pixel by pixel.
 
 use super::ONLY_WIDE;
+use super::buffer::TILE_SAMPLES;
 use super::rasterize::Rasterizer;
 use super::writer::VisibilityWriter;
 use crate::bounds::primitives::TrianglePacket;
-use crate::raster::MAX_PACKETS;
 use crate::raster::pixel_list::{PixelList, lane_of};
 use estampe_simd::{LANES, Lanes, dispatch};
 use std::hint::select_unpredictable;
-
-/// Samples of a tile where a pixel has one sample, or four.
-const TILE_SAMPLES: usize = MAX_PACKETS * LANES;
 
 /// The ids of small triangles' samples.
 pub(super) trait Numbering {
@@ -82,12 +79,14 @@ impl<const N: usize> Rasterizer<'_, '_, '_, N> {
             self.scratch.statistics.small_triangle_pixels += list.len() as u64;
             blocks |= if self.crosses_triangles {
                 let mut numbering = visibility.cross.begin();
-                let blocks = writer.pixels(list, packet.front, &mut numbering);
-                let shown = numbering.shown();
-                visibility.cross.end(shown);
+                let blocks = writer.pixels(s, list, packet.front, &mut numbering);
+                let end = numbering.end();
+                // Varyings of triangles that are hidden are read in vain: noting which these are,
+                // pixel by pixel, takes longer.
+                visibility.cross.end(end, lanes);
                 blocks
             } else {
-                writer.pixels(list, packet.front, &mut ByTriangle::new(entry))
+                writer.pixels(s, list, packet.front, &mut ByTriangle::new(entry))
             };
         }
         visibility.buffer.single = single;
@@ -101,45 +100,66 @@ impl<const N: usize> Rasterizer<'_, '_, '_, N> {
 }
 
 impl<const N: usize> VisibilityWriter<'_, N> {
-    /// Adds one sample of the listed pixels, in order. Gives the blocks that were touched, one bit
-    /// each.
+    /// Adds one sample of the listed pixels, in order. Gives the blocks that may have been touched,
+    /// one bit each.
     #[inline(always)]
-    fn pixels(&mut self, list: &PixelList, front: u16, numbering: &mut impl Numbering) -> u16 {
-        if self.tests_less_alone() && self.passed.is_none() {
-            self.nearer_pixels(list, numbering)
-        } else {
-            self.pixels_of_any_test(list, front, numbering)
+    fn pixels<S: Lanes>(
+        &mut self,
+        s: S,
+        list: &PixelList,
+        front: u16,
+        numbering: &mut impl Numbering,
+    ) -> u16 {
+        if !self.tests_less_alone() || self.passed.is_some() {
+            return self.pixels_of_any_test(list, front, numbering);
         }
+        if self.has_ids() {
+            self.nearer_pixels(list, numbering);
+        } else {
+            self.nearer_depths(list);
+        }
+        list.blocks(s, (256 * N).ilog2())
     }
 
     /// Adds the listed pixels that are nearer than what is stored. There is no branch on the
-    /// result, which nobody can predict.
+    /// result, which nobody can predict. Most pixels share their packet with the one before: bits
+    /// of a packet would wait for each other, where each pixel has a byte.
     #[inline(always)]
-    fn nearer_pixels(&mut self, list: &PixelList, numbering: &mut impl Numbering) -> u16 {
+    fn nearer_pixels(&mut self, list: &PixelList, numbering: &mut impl Numbering) {
         let depth = self.depth.as_flattened_mut().first_chunk_mut();
-        let depth: Option<&mut [f32; TILE_SAMPLES]> = depth;
-        let Some(depth) = depth else {
-            debug_assert!(self.depth.is_empty(), "a tile of one sample or four");
-            return 0;
-        };
-        let unresolved = self.unresolved.as_flattened_mut();
         let ids = self.ids.as_flattened_mut().first_chunk_mut();
-        let mut ids: Option<&mut [u32; TILE_SAMPLES]> = ids;
-        let mut blocks = 0;
+        let (depth, ids): (Option<&mut [f32; TILE_SAMPLES]>, Option<&mut [u32; TILE_SAMPLES]>) =
+            (depth, ids);
+        let (Some(depth), Some(ids)) = (depth, ids) else {
+            debug_assert!(self.depth.is_empty(), "a tile of one sample or four");
+            return;
+        };
+        let shown = self.shown.begin();
         for (pixel, at, new) in list.iter() {
             let at = at % TILE_SAMPLES;
             let old = depth[at];
             let passes = new < old;
             depth[at] = if passes { new } else { old };
-            blocks |= u16::from(passes) << (at / (256 * N));
-            if let Some(ids) = &mut ids {
-                let id = numbering.id_of(lane_of(pixel));
-                ids[at] = select_unpredictable(passes, id, ids[at]);
-                unresolved[at / LANES] |= u16::from(passes) << (at % LANES);
-                numbering.note(pixel, passes);
-            }
+            let id = numbering.id_of(lane_of(pixel));
+            ids[at] = select_unpredictable(passes, id, ids[at]);
+            shown[at] |= u8::from(passes);
+            numbering.note(pixel, passes);
         }
-        blocks
+    }
+
+    /// Stores the depths of the listed pixels that are nearer, of fragments without colours.
+    #[inline(always)]
+    fn nearer_depths(&mut self, list: &PixelList) {
+        let depth = self.depth.as_flattened_mut().first_chunk_mut();
+        let depth: Option<&mut [f32; TILE_SAMPLES]> = depth;
+        let Some(depth) = depth else {
+            debug_assert!(self.depth.is_empty(), "a tile of one sample or four");
+            return;
+        };
+        for (_, at, new) in list.iter() {
+            let stored = &mut depth[at % TILE_SAMPLES];
+            *stored = if new < *stored { new } else { *stored };
+        }
     }
 
     /// Adds the listed pixels that pass the draw's tests.

@@ -7,7 +7,7 @@
 //! front to back.
 
 use super::ONLY_WIDE;
-use super::buffer::VisibilityBuffer;
+use super::buffer::{ShownSamples, VisibilityBuffer};
 use crate::depth_format::StoredDepth;
 use crate::fragment::interpolate::{DepthPlane, PlaneBlock, evaluate};
 use crate::per_sample::compare::prefers_less;
@@ -69,6 +69,7 @@ pub(super) struct VisibilityWriter<'a, const N: usize> {
     /// The ids; empty where fragments have no colours.
     pub(super) ids: &'a mut [[u32; LANES]],
     pub(super) unresolved: &'a mut [[u16; N]; MAX_PACKETS],
+    pub(super) shown: &'a mut ShownSamples,
     /// Samples that passed all tests, where a query counts them.
     pub(super) passed: Option<&'a mut u64>,
 }
@@ -106,6 +107,7 @@ impl<'a, const N: usize> VisibilityWriter<'a, N> {
             stencil: job.stencil,
             ids,
             unresolved: &mut buffer.unresolved,
+            shown: &mut buffer.shown,
             passed,
         }
     }

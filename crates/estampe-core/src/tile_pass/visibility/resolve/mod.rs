@@ -90,6 +90,7 @@ pub(in crate::tile_pass) fn resolve<const N: usize>(
     scratch: &mut TileScratch<N>,
 ) {
     rasterize_waiting(pass, job, scratch);
+    scratch.visibility.buffer.take_shown(pass.level);
     if scratch.visibility.buffer.groups.is_empty() {
         return;
     }
