@@ -300,6 +300,51 @@ fn four_neighbours_stay_inside_the_table() {
 }
 
 #[inline(always)]
+fn pairs<S: Lanes>(s: S, table: &[u32], index: [u32; LANES]) -> [[u32; LANES]; 2] {
+    let [a, b] = s.gather_pair(table, u32x16::load_array(s, index));
+    [a.to_array(), b.to_array()]
+}
+
+#[test]
+fn two_neighbours_stay_inside_the_table() {
+    let index = [
+        0,
+        1,
+        2,
+        3,
+        4,
+        5,
+        31,
+        32,
+        33,
+        34,
+        1 << 30,
+        1 << 31,
+        u32::MAX,
+        u32::MAX - 3,
+        12,
+        7,
+    ];
+    for len in [0, 1, 2, 3, 8, 37] {
+        let table: Box<[u32]> = (0..len).map(|i| i * 3 + 1).collect();
+        for level in Level::all_available() {
+            let got = dispatch!(level, s => pairs(s, &table, index));
+            for (lane, at) in index.into_iter().enumerate() {
+                let expected = match table.len().checked_sub(2) {
+                    Some(last) => {
+                        let at = (at as usize).min(last);
+                        [table[at], table[at + 1]]
+                    }
+                    None => [0; 2],
+                };
+                let got = got.map(|word| word[lane]);
+                assert_eq!(got, expected, "{level:?} {at} of {len}");
+            }
+        }
+    }
+}
+
+#[inline(always)]
 fn squares<S: Lanes>(s: S, table: &[u32], index: [u32; LANES], stride: u32) -> [[u32; LANES]; 4] {
     let [a, b, c, d] = s.gather_square(table, u32x16::load_array(s, index), stride);
     [a.to_array(), b.to_array(), c.to_array(), d.to_array()]

@@ -10,7 +10,9 @@
 
 use super::plan::GeometryPlan;
 use super::shaded_vertices::{NEEDS_CLIPPING, PackedVertex};
-use estampe_simd::{Bytes, LANES, Lane, Lanes, SimdBase, SimdCvtFloat, f32x16, i32x16, outline};
+use estampe_simd::{
+    Bytes, LANES, Lane, Lanes, SimdBase, SimdCvtFloat, f32x16, i32x16, outline, u32x16,
+};
 use std::ops::Range;
 
 /// Sixteen assembled triangles: the vertices that they join, and where these lie in the window.
@@ -25,7 +27,8 @@ pub(crate) struct TriangleGroup {
 
 impl TriangleGroup {
     /// Reads x and y of the vertices, each pair as one load of 64 bits: on Zen 4 48 of these take
-    /// half of the time of six gathers.
+    /// half of the time of six gathers. On Intel it is the other way round: see
+    /// [`WindowTriangles::gather`].
     #[inline(always)]
     pub(crate) fn read_positions(&mut self, window: &[PackedVertex]) {
         for (lane, vertices) in self.vertices.iter().enumerate() {
@@ -69,6 +72,19 @@ impl<S: Lanes> WindowTriangles<S> {
         Self {
             x: [x0, x1, x2],
             y: [y0, y1, y2],
+        }
+    }
+
+    /// The triangles that join these vertices, of which the window has fewer than 2²⁹.
+    #[inline(always)]
+    pub(crate) fn gather(s: S, window: &[PackedVertex], vertices: &[u32x16<S>; 3]) -> Self {
+        let words = window.as_flattened();
+        let [x0, y0] = s.gather_pair(words, vertices[0] << 2);
+        let [x1, y1] = s.gather_pair(words, vertices[1] << 2);
+        let [x2, y2] = s.gather_pair(words, vertices[2] << 2);
+        Self {
+            x: [x0.bitcast(), x1.bitcast(), x2.bitcast()],
+            y: [y0.bitcast(), y1.bitcast(), y2.bitcast()],
         }
     }
 

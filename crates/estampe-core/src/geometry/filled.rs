@@ -9,7 +9,8 @@
 //! ```
 //!
 //! One group is assembled before the last one is classified: vectors cannot be loaded from what was
-//! just stored lane by lane, and meanwhile there is something to do.
+//! just stored lane by lane, and meanwhile there is something to do. Where positions are gathered,
+//! nothing is stored but vertices.
 
 use super::clip_detour::ClipDetour;
 use super::cull::{Classified, TriangleGroup, WindowTriangles, classify};
@@ -19,6 +20,9 @@ use super::setup::{Setup, SetupLanes};
 use super::shaded_vertices::PackedVertex;
 use crate::bounds::transpose::components_of_three;
 use estampe_simd::{LANES, Lane, Lanes, SimdBase, u32x16};
+
+/// Positions are gathered of fewer vertices than this: hardware indices of words have 31 bits.
+const MOST_GATHERED: usize = 1 << 29;
 
 /// Draws the triangles of a run.
 #[inline(always)]
@@ -30,24 +34,36 @@ pub(super) fn draw<S: Lanes>(
     clip: &mut ClipDetour,
 ) {
     let window = work.vertices.window;
+    let gathers = s.gathers_pairs() && window.len() < MOST_GATHERED;
+    let read = if gathers { None } else { Some(window) };
     let mut primitives = PrimitiveGroups::new(&work.elements, work.instance, work.primitives);
     let [mut group, mut ahead] = groups.each_mut();
-    let mut coming = assemble(&mut primitives, window, ahead);
+    let mut coming = assemble(&mut primitives, read, ahead);
     let mut culled = 0;
     while let Some(count) = coming {
         std::mem::swap(&mut group, &mut ahead);
-        coming = assemble(&mut primitives, window, ahead);
+        coming = assemble(&mut primitives, read, ahead);
 
         let active = u16::MAX >> (LANES - count);
-        let triangles = WindowTriangles::new(s, group);
+        let mut vertices = [<u32x16<S> as SimdBase<S>>::splat(s, 0); 3];
+        let triangles = if gathers {
+            vertices = components_of_three(s, &group.vertices);
+            WindowTriangles::gather(s, window, &vertices)
+        } else {
+            WindowTriangles::new(s, group)
+        };
         let classified = classify(s, work.plan, &triangles, active);
         let kept = classified.visible | classified.clipped;
         culled += (active & !kept).count_ones();
         if kept == 0 {
             continue;
         }
+        if !gathers {
+            // Of culled triangles they are not needed.
+            vertices = components_of_three(s, &group.vertices);
+        }
         let lanes = SetupLanes {
-            vertices: components_of_three(s, &group.vertices),
+            vertices,
             first_vertex: <u32x16<S> as SimdBase<S>>::splat(s, work.vertices.first_in_group),
             doubled_area: classified.doubled_area,
         };
@@ -64,15 +80,18 @@ pub(super) fn draw<S: Lanes>(
     setup.chunk.statistics.primitives_culled += u64::from(culled);
 }
 
-/// Assembles the next group and reads where its vertices are; none at the end.
+/// Assembles the next group, and reads where its vertices are in a window if one is given; none at
+/// the end.
 #[inline(always)]
 fn assemble(
     primitives: &mut PrimitiveGroups<'_>,
-    window: &[PackedVertex],
+    window: Option<&[PackedVertex]>,
     group: &mut TriangleGroup,
 ) -> Option<usize> {
     let count = primitives.next_group(&mut group.vertices)?;
-    group.read_positions(window);
+    if let Some(window) = window {
+        group.read_positions(window);
+    }
     Some(count)
 }
 

@@ -137,7 +137,12 @@ impl PixelList {
     pub(crate) fn blocks<S: Lanes>(&self, s: S, log2: u32) -> u16 {
         let splat = |value| <u32x16<S> as SimdBase<S>>::splat(s, value);
         let mut blocks = splat(0);
-        let places = self.places.as_chunks().0.iter().zip((0..self.len).step_by(LANES));
+        let places = self
+            .places
+            .as_chunks()
+            .0
+            .iter()
+            .zip((0..self.len).step_by(LANES));
         for (places, from) in places {
             let listed = u16::MAX >> (LANES - (self.len - from).min(LANES));
             let block = splat(1) << (u32x16::load_array_ref(s, places) >> log2);

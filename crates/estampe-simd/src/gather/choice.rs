@@ -47,6 +47,12 @@ impl Choice {
     }
 }
 
+/// True if AVX-512 gathers pairs.
+#[inline(always)]
+pub(crate) fn gathers_avx512() -> bool {
+    AVX512.is_gathers()
+}
+
 /// [`Lanes::gather_square`] in the chosen way.
 #[inline(always)]
 pub(crate) fn square_avx512(

@@ -120,6 +120,16 @@ pub(crate) fn square_by_lane<S: Simd>(
     ]
 }
 
+/// [`Lanes::gather_pair`](crate::Lanes::gather_pair) by two gathers.
+#[inline(always)]
+pub(crate) fn pair_by_lane<S: Simd>(simd: S, table: &[u32], index: u32x16<S>) -> [u32x16<S>; 2] {
+    let Some((second, last)) = table.get(1..).zip(last_square(table, 0)) else {
+        return [u32x16::splat(simd, 0); 2];
+    };
+    let index = index.min(u32x16::splat(simd, last));
+    [by_lane(simd, table, index), by_lane(simd, second, index)]
+}
+
 /// The last index for which it and the next three are valid, or `None` if the table is too short.
 #[inline(always)]
 #[expect(
@@ -183,8 +193,9 @@ pub(crate) fn scatter_by_lane<S: Simd>(
 pub use choice::SquareLoads;
 #[cfg(target_arch = "x86_64")]
 pub(crate) use {
-    choice::{decide, square_avx2, square_avx512},
+    choice::{decide, gathers_avx512, square_avx2, square_avx512},
     fours::{four_avx2, four_avx512, four_sse2},
+    pairs::pair_avx512,
     single::{avx2, avx512, scatter_avx512},
     squares::square_sse2,
 };

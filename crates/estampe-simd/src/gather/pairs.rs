@@ -30,6 +30,28 @@ pub(crate) fn square_avx512(
     let Some((rows, index)) = rows(simd, table, index, stride) else {
         return [u32x16::splat(simd, 0); 4];
     };
+    let [upper, lower] = rows;
+    let [left, right] = pairs_of_row(simd, upper, index);
+    let [lower_left, lower_right] = pairs_of_row(simd, lower, index);
+    [left, right, lower_left, lower_right]
+}
+
+/// [`Lanes::gather_pair`](crate::Lanes::gather_pair) by two gathers of eight pairs.
+#[inline(always)]
+pub(crate) fn pair_avx512(
+    simd: Avx512,
+    table: &[u32],
+    index: u32x16<Avx512>,
+) -> [u32x16<Avx512>; 2] {
+    match last_square(table, 0) {
+        Some(last) => pairs_of_row(simd, table, index.min(u32x16::splat(simd, last))),
+        None => [u32x16::splat(simd, 0); 2],
+    }
+}
+
+/// The elements at each index, which is at most `last_square`, and the next ones.
+#[inline(always)]
+fn pairs_of_row(simd: Avx512, row: &[u32], index: u32x16<Avx512>) -> [u32x16<Avx512>; 2] {
     fearless_simd::kernel!(
         #[inline(always)]
         fn pairs(simd: Avx512, row: &[u32], index: u32x8<Avx512>) -> u32x16<Avx512> {
@@ -56,12 +78,7 @@ pub(crate) fn square_avx512(
         }
     );
     let (low, high) = index.split();
-    let [upper, lower] = rows;
-    let upper = [pairs(simd, upper, low), pairs(simd, upper, high)];
-    let lower = [pairs(simd, lower, low), pairs(simd, lower, high)];
-    let [left, right] = divide(simd, upper[0], upper[1]);
-    let [lower_left, lower_right] = divide(simd, lower[0], lower[1]);
-    [left, right, lower_left, lower_right]
+    divide(simd, pairs(simd, row, low), pairs(simd, row, high))
 }
 
 /// [`Lanes::gather_square`](crate::Lanes::gather_square) by eight gathers of four pairs.

@@ -108,6 +108,21 @@ pub trait Lanes: Simd {
         crate::gather::square_by_lane(self, table, index, stride)
     }
 
+    /// True if [`gather_pair`](Self::gather_pair) is an instruction that takes less time than loads
+    /// lane by lane, on this processor.
+    #[inline(always)]
+    fn gathers_pairs(self) -> bool {
+        false
+    }
+
+    /// `table[index]` and `table[index + 1]` in each lane. If either is beyond the end, the last
+    /// two are read; a table with fewer than two elements reads as zeros. Pairs from 2³¹ on are
+    /// not reachable.
+    #[inline(always)]
+    fn gather_pair(self, table: &[u32], index: u32x16<Self>) -> [u32x16<Self>; 2] {
+        crate::gather::pair_by_lane(self, table, index)
+    }
+
     /// `table[index]` and the next three elements in each lane. If any of the four is beyond the
     /// end, the last four are read; a table with fewer than four elements reads as zeros.
     #[inline(always)]

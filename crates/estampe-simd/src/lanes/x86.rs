@@ -250,6 +250,14 @@ impl Lanes for Avx512 {
         crate::gather::square_avx512(self, table, index, stride)
     }
     #[inline(always)]
+    fn gathers_pairs(self) -> bool {
+        crate::gather::gathers_avx512()
+    }
+    #[inline(always)]
+    fn gather_pair(self, table: &[u32], index: u32x16<Self>) -> [u32x16<Self>; 2] {
+        crate::gather::pair_avx512(self, table, index)
+    }
+    #[inline(always)]
     fn gather_four(self, table: &[u32], index: u32x16<Self>) -> [u32x16<Self>; 4] {
         crate::gather::four_avx512(self, table, index)
     }

@@ -128,8 +128,10 @@ impl<const N: usize> VisibilityWriter<'_, N> {
     fn nearer_pixels(&mut self, list: &PixelList, numbering: &mut impl Numbering) {
         let depth = self.depth.as_flattened_mut().first_chunk_mut();
         let ids = self.ids.as_flattened_mut().first_chunk_mut();
-        let (depth, ids): (Option<&mut [f32; TILE_SAMPLES]>, Option<&mut [u32; TILE_SAMPLES]>) =
-            (depth, ids);
+        let (depth, ids): (
+            Option<&mut [f32; TILE_SAMPLES]>,
+            Option<&mut [u32; TILE_SAMPLES]>,
+        ) = (depth, ids);
         let (Some(depth), Some(ids)) = (depth, ids) else {
             debug_assert!(self.depth.is_empty(), "a tile of one sample or four");
             return;
