@@ -209,3 +209,42 @@ fn cull<S: Lanes>(
         (masks, area)
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use estampe_simd::{Level, dispatch};
+
+    #[test]
+    fn positions_are_gathered_as_they_are_read() {
+        let mut state = 1u32;
+        let mut random = || {
+            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            state >> 8
+        };
+        let window: Vec<PackedVertex> = (0..50).map(|_| [0; 4].map(|_| random())).collect();
+        for level in Level::all_available() {
+            let mut group = TriangleGroup::default();
+            for vertex in group.vertices.as_flattened_mut() {
+                *vertex = random() % 50;
+            }
+            group.vertices[3] = [49; 3];
+            group.read_positions(&window);
+            dispatch!(level, s => {
+                let of_corner = |corner: usize| group.vertices.map(|vertices| vertices[corner]);
+                let vertices = [
+                    u32x16::load_array(s, of_corner(0)),
+                    u32x16::load_array(s, of_corner(1)),
+                    u32x16::load_array(s, of_corner(2)),
+                ];
+                let read = WindowTriangles::new(s, &group);
+                let gathered = WindowTriangles::gather(s, &window, &vertices);
+                for corner in 0..3 {
+                    let [x, y] = [read.x[corner], read.y[corner]].map(|all| all.to_array());
+                    assert_eq!(gathered.x[corner].to_array(), x, "{level:?}");
+                    assert_eq!(gathered.y[corner].to_array(), y, "{level:?}");
+                }
+            });
+        }
+    }
+}

@@ -168,3 +168,28 @@ type Sixteen<'a> = (
     &'a [u32; LANES],
     (&'a mut [u32; LANES], &'a mut [f32; LANES]),
 );
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use estampe_simd::{Level, dispatch};
+
+    #[test]
+    fn blocks_are_those_of_the_listed_pixels() {
+        let mut list = Box::new(PixelList::default());
+        for (at, place) in list.places.iter_mut().enumerate() {
+            *place = (at as u32).wrapping_mul(2_654_435_761) >> 20;
+        }
+        for len in [0, 1, 2, 15, 16, 17, 40, MOST] {
+            list.len = len;
+            for log2 in [8, 10] {
+                let places = list.places[..len].iter();
+                let expected = places.fold(0, |all, place| all | 1u16 << (place >> log2));
+                for level in Level::all_available() {
+                    let found = dispatch!(level, s => list.blocks(s, log2));
+                    assert_eq!(found, expected, "{len} pixels, {level:?}");
+                }
+            }
+        }
+    }
+}

@@ -221,3 +221,35 @@ impl<const N: usize> VisibilityBuffer<N> {
         self.single = SinglePrimitiveBlocks::default();
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn shown_samples_are_taken_once() {
+        for level in Level::all_available() {
+            if level.is_scalar() {
+                continue;
+            }
+            let mut buffer = VisibilityBuffer::<4>::default();
+            buffer.unresolved[7][1] = 1;
+            let places = [0, 15, 16, (7 * 4 + 1) * LANES + 2, TILE_SAMPLES - 1];
+            for place in places {
+                buffer.shown.begin()[place] = 1;
+            }
+            buffer.take_shown(level);
+            let mut expected = [[0; 4]; MAX_PACKETS];
+            expected[7][1] = 1;
+            for place in places {
+                expected.as_flattened_mut()[place / LANES] |= 1 << (place % LANES);
+            }
+            assert_eq!(*buffer.unresolved, expected, "{level:?}");
+            // None is left.
+            buffer.unresolved.fill([0; 4]);
+            buffer.shown.begin();
+            buffer.take_shown(level);
+            assert_eq!(*buffer.unresolved, [[0; 4]; MAX_PACKETS], "{level:?}");
+        }
+    }
+}

@@ -77,6 +77,16 @@ impl<const N: usize> Quads<N> {
             };
             self.quads.resize((self.len + QUADS) * 2, nothing);
         }
+        // In registers: each quad would wait for the numbers that the one before it stored.
+        let (mut before, mut len) = (*last, 0);
+        let Some(out) = self
+            .quads
+            .get_mut(self.len..)
+            .and_then(<[_]>::first_chunk_mut)
+        else {
+            unreachable!("four more quads than there are");
+        };
+        let out: &mut [Quad<N>; QUADS] = out;
         for quad in 0..QUADS {
             let shift = quad * QUAD;
             let mut masks = covered.masks;
@@ -84,16 +94,18 @@ impl<const N: usize> Quads<N> {
                 *mask = *mask >> shift & 0xF;
             }
             // The next one takes its place, unless the triangle has it.
-            self.quads[self.len] = Quad {
-                before: *last,
+            out[len % QUADS] = Quad {
+                before,
                 place: covered.packet * 4 + quad as u16,
                 masks,
             };
             let is_there = quads >> shift & 1 == 1;
             // At most four for each sample of a tile.
-            *last = select_unpredictable(is_there, self.len as u32, *last);
-            self.len += usize::from(is_there);
+            before = select_unpredictable(is_there, (self.len + len) as u32, before);
+            len += usize::from(is_there);
         }
+        *last = before;
+        self.len += len;
     }
 
     /// A triangle's first quad to take.
