@@ -26,6 +26,11 @@ impl Incoming {
             state,
         }
     }
+
+    /// The lanes that run.
+    pub(super) fn runs(&self) -> Value {
+        self.state[RUNNING]
+    }
 }
 
 impl Jump {

@@ -54,6 +54,7 @@ impl Lowering<'_> {
         }
         match self.kernel.values[yes.index()].kind {
             Type::Word => self.emit(Op::Select { mask, yes, no }),
+            Type::Mask if yes == self.constants.all => self.mask_binary(MaskBinary::Or, no, mask),
             Type::Mask => {
                 let yes = self.mask_binary(MaskBinary::And, mask, yes);
                 let no = self.mask_binary(MaskBinary::AndNot, no, mask);

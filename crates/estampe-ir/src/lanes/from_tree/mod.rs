@@ -89,6 +89,11 @@ enum Way {
     Loop(BlockId),
 }
 
+/// True if it is worth a branch to skip the rest of a body.
+fn is_long(rest: &[Node]) -> bool {
+    cost(rest) >= 2 * WORTH_A_BRANCH
+}
+
 /// The parameters of a loop, and their values in the first iteration.
 type Carried<'a> = (&'a [Value], &'a [Value]);
 
@@ -109,7 +114,12 @@ impl<'a> Lowering<'a> {
                 } => {
                     let mask = self.map[condition.index()];
                     if self.uniformity.is_uniform(*condition) {
-                        self.uniform_if(mask, [accept, reject]);
+                        let may_skip = !self.leaving.of(node).is_empty() && is_long(rest);
+                        let skipping = self.uniform_if(mask, [accept, reject], may_skip);
+                        if !skipping.is_empty() {
+                            self.rest(rest, before, skipping);
+                            return;
+                        }
                     } else {
                         self.varying_if(node, mask, [accept, reject]);
                     }
@@ -145,7 +155,7 @@ impl<'a> Lowering<'a> {
                 }
                 Node::Branch { label, arguments } => self.branch(*label, arguments),
             }
-            if self.may_skip_after(node, before) && cost(rest) >= 2 * WORTH_A_BRANCH {
+            if self.may_skip_after(node, before) && is_long(rest) {
                 // What the rest defines is seen in the rest alone.
                 self.side(rest);
                 return;
@@ -198,9 +208,22 @@ impl<'a> Lowering<'a> {
         }
     }
 
-    fn uniform_if(&mut self, mask: Value, sides: [&'a [Node]; 2]) {
+    /// The rest of a body behind a uniform `if`, of which one side left it for another construct.
+    fn rest(&mut self, rest: &'a [Node], before: Value, skipping: Vec<Incoming>) {
+        if self.state[RUNNING] == before {
+            self.body(rest);
+        } else {
+            self.side(rest);
+        }
+        let ran = self.incoming(Vec::new());
+        self.join(ran.into_iter().chain(skipping).collect(), &[]);
+    }
+
+    /// A uniform `if`. If the rest of the body may be skipped, and no lane runs at the end of one
+    /// side, the jump from there is returned.
+    fn uniform_if(&mut self, mask: Value, sides: [&'a [Node]; 2], may_skip: bool) -> Vec<Incoming> {
         let Some(fork) = self.current else {
-            return;
+            return Vec::new();
         };
         let before = self.state.clone();
         let mut incoming = Vec::new();
@@ -213,7 +236,13 @@ impl<'a> Lowering<'a> {
             Jump::to(side)
         });
         self.set_terminator(fork, Terminator::Branch { mask, any, none });
-        self.join(incoming, &[]);
+        let none = self.constants.none;
+        let has_left = |one: &Incoming| one.runs() == none;
+        let all_left = incoming.iter().all(has_left);
+        let leaves = |one: &Incoming| may_skip && !all_left && has_left(one);
+        let (skipping, staying): (Vec<_>, Vec<_>) = incoming.into_iter().partition(leaves);
+        self.join(staying, &[]);
+        skipping
     }
 
     fn varying_if(&mut self, node: &Node, mask: Value, sides: [&'a [Node]; 2]) {
