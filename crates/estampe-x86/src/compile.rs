@@ -112,6 +112,8 @@ impl Code {
         lanes::verify(kernel).map_err(|error| CompileError::Malformed(error.to_string()))?;
         let expanded = select::expand::expand(kernel, MAX_SIZE)?;
         let kernel = expanded.as_ref().unwrap_or(kernel);
+        let fused = select::exact_products::fuse(kernel);
+        let kernel = fused.as_ref().unwrap_or(kernel);
         let Selected {
             prepare,
             packet,

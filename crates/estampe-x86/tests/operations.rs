@@ -356,6 +356,98 @@ fn inverse_square_roots() {
     }
 }
 
+/// The instructions of a mnemonic in code of a tree.
+fn count(tree: &Tree, isa: Isa, mnemonic: iced_x86::Mnemonic) -> usize {
+    let code = Code::compile(&Kernel::from_tree(tree), isa, Tier::Optimised).unwrap();
+    let decoder = iced_x86::Decoder::new(64, code.instructions(), iced_x86::DecoderOptions::NONE);
+    let instructions = decoder.into_iter();
+    instructions
+        .filter(|one| one.mnemonic() == mnemonic)
+        .count()
+}
+
+/// Sums of exact products are one operation, with the bits of two; others are not.
+#[test]
+fn sums_of_exact_products() {
+    type Two = (Binary, f32, f32);
+    let sums: [Two; 10] = [
+        (Binary::FAdd, 0.5, 0.5),
+        (Binary::FSub, 2.0, 1.0),
+        (Binary::FSub, -0.25, 3.0e7),
+        (Binary::FAdd, 2.0_f32.powi(90), 2.0_f32.powi(99)),
+        (Binary::FAdd, 2.0_f32.powi(-90), 2.0_f32.powi(-90)),
+        (Binary::FSub, 2.0_f32.powi(-90), -2.0_f32.powi(-90)),
+        // A factor that is none, and summands that are too small, too large, or nothing.
+        (Binary::FAdd, 3.0, 0.5),
+        (Binary::FAdd, 0.5, 2.0_f32.powi(-91)),
+        (Binary::FAdd, 2.0, 2.0_f32.powi(101)),
+        (Binary::FAdd, 0.5, 0.0),
+    ];
+    for (at, (kind, scale, summand)) in sums.into_iter().enumerate() {
+        for is_swapped in [false, true] {
+            let order = |pair: [Value; 2]| if is_swapped { [pair[1], pair[0]] } else { pair };
+            let build = |builder: &mut Builder, values: &[Value]| {
+                let [scale, summand] = [scale, summand].map(|word| builder.float(word));
+                let product = builder.binary(Binary::FMul, values[0], scale);
+                let [a, b] = order([product, summand]);
+                builder.binary(kind, a, b)
+            };
+            let expected = |x: u32| {
+                let product = Binary::FMul.evaluate([x, scale.to_bits()]);
+                let [a, b] = if is_swapped {
+                    [summand.to_bits(), product]
+                } else {
+                    [product, summand.to_bits()]
+                };
+                kind.evaluate([a, b])
+            };
+            test_operation("sum of a product", 1, true, &build, &|[x, ..]| expected(x));
+            let mut builder = Builder::new(Stage::Vertex);
+            let x = builder.input(Input::Varying(0));
+            let result = build(&mut builder, &[x]);
+            let tree = builder.finish(vec![(Output::Varying(0), result)]);
+            for isa in isas() {
+                let products = count(&tree, isa, iced_x86::Mnemonic::Vmulps);
+                assert_eq!(products == 0, at < 6, "{isa:?} {scale} {summand}");
+            }
+        }
+    }
+}
+
+/// What is left of a number after the multiples of a power of two around it.
+#[test]
+fn remainders_of_multiples() {
+    for (halves, doubles, is_fused) in [
+        (0.5, 2.0, true),
+        (0.125, 4.0, true),
+        (0.5, 4.0, false),
+        (1.0, 0.5, true),
+        (0.7, 2.0, false),
+    ] {
+        let build = |builder: &mut Builder, values: &[Value]| {
+            let [halves, doubles, half] = [halves, doubles, 0.5].map(|word| builder.float(word));
+            let quotient = builder.binary(Binary::FMul, values[0], halves);
+            let quotient = builder.binary(Binary::FAdd, quotient, half);
+            let whole = builder.unary(Unary::FFloor, quotient);
+            let multiple = builder.binary(Binary::FMul, whole, doubles);
+            builder.binary(Binary::FSub, values[1], multiple)
+        };
+        let expected = |[x, y]: [u32; 2]| {
+            let [x, y] = [x, y].map(f32::from_bits);
+            (y - (x * halves + 0.5).floor() * doubles).to_bits()
+        };
+        test_operation("remainder", 2, true, &build, &|[x, y, _]| expected([x, y]));
+        let mut builder = Builder::new(Stage::Vertex);
+        let values = [0, 1].map(|at| builder.input(Input::Varying(at)));
+        let result = build(&mut builder, &values);
+        let tree = builder.finish(vec![(Output::Varying(0), result)]);
+        for isa in isas() {
+            let differences = count(&tree, isa, iced_x86::Mnemonic::Vsubps);
+            assert_eq!(differences == 0, is_fused, "{isa:?} {halves} {doubles}");
+        }
+    }
+}
+
 #[test]
 fn functions() {
     for &function in Math::ALL {

@@ -21,6 +21,7 @@
 //! | [`plan`] | nothing: finds what is needed, uniform or hoisted |
 //! | [`quadruples`] | loads of the components of vectors |
 //! | [`uniform_loads`] | loads at places that are the same in all lanes |
+//! | [`exact_products`] | nothing: fuses sums of exact products |
 //! | [`strides`] | nothing: finds what grows by the same number from lane to lane |
 //! | [`schedule`] | nothing: orders the operations of a block |
 //! | [`functions`] | blocks, edges, jumps and branches |
@@ -36,6 +37,7 @@
 
 pub(crate) mod calls;
 mod division;
+pub(crate) mod exact_products;
 pub(crate) mod expand;
 mod functions;
 mod halves;
