@@ -448,6 +448,59 @@ fn remainders_of_multiples() {
     }
 }
 
+/// By a word that is the same in all lanes: numbers beside its multiples.
+#[test]
+fn divisions_by_one_word() {
+    let random = &mut fastrand::Rng::with_seed(8);
+    let some = [
+        1,
+        2,
+        3,
+        720,
+        1280,
+        0x7FFF_FFFF,
+        0x8000_0000,
+        0x8000_0001,
+        u32::MAX,
+    ];
+    let others: Vec<u32> = (0..40)
+        .map(|_| random.u32(..) >> random.u32(..32))
+        .collect();
+    for divisor in some.into_iter().chain(others) {
+        let mut inputs = vec![Packet([0; 16]); PACKETS * 3];
+        for word in inputs
+            .iter_mut()
+            .step_by(3)
+            .flat_map(|packet| &mut packet.0)
+        {
+            let near = random.u32(..3).wrapping_sub(1);
+            let multiple = match random.u8(..3) {
+                0 => random.u32(..).checked_div(divisor).unwrap_or(0),
+                1 => u32::MAX.checked_div(divisor).unwrap_or(0),
+                _ => random.u32(..),
+            };
+            *word = multiple.wrapping_mul(divisor).wrapping_add(near);
+        }
+        for kind in [Binary::UDiv, Binary::URem, Binary::SDiv, Binary::SRem] {
+            let mut builder = Builder::new(Stage::Vertex);
+            let [x, by] = [Input::Varying(0), Input::PushConstant(1)].map(|of| builder.input(of));
+            let result = builder.binary(kind, x, by);
+            let tree = builder.finish(vec![(Output::Varying(0), result)]);
+            inputs[1].0[0] = divisor;
+            for isa in isas() {
+                let found = run(&tree, (isa, Tier::Optimised), &inputs);
+                let words = inputs.iter().step_by(3).flat_map(|packet| packet.0);
+                for (x, found) in words.zip(found.iter().flat_map(|packet| packet.0)) {
+                    let wanted = kind.evaluate([x, divisor]);
+                    assert_eq!(found, wanted, "{isa:?}: {kind:?} of {x:x} and {divisor:x}");
+                }
+                let products = count(&tree, isa, iced_x86::Mnemonic::Vmulpd);
+                assert_eq!(products > 0, isa == Isa::Avx512);
+            }
+        }
+    }
+}
+
 #[test]
 fn functions() {
     for &function in Math::ALL {

@@ -185,6 +185,7 @@ table! {
     F64_FROM_U32 = VectorOp::both("vcvtudq2pd", F3, 1, 0x7A).evex_only();
     S32_FROM_F64 = VectorOp::both("vcvttpd2dq", P66, 1, 0xE6).evex_only().wide();
     U32_FROM_F64 = VectorOp::both("vcvttpd2udq", NONE, 1, 0x78).evex_only().wide();
+    MUL_F64 = VectorOp::both("vmulpd", P66, 1, 0x59).evex_only().wide();
     DIV_F64 = VectorOp::both("vdivpd", P66, 1, 0x5E).evex_only().wide();
     // Lanes of 16 bits, side by side in the lower half of a register.
     F32_FROM_F16 = VectorOp::both("vcvtph2ps", P66, 2, 0x13);

@@ -3,6 +3,10 @@
 //! A quotient of two 32-bit integers, rounded to binary64 and then towards 0, is exact. Below a
 //! whole number n, a ÷ b ends at least 1 ÷ b before it, while the rounding moves it by at most
 //! a ÷ b · 2⁻⁵³, which is less, as a < 2⁵³.
+//!
+//! A divisor that is the same in all lanes is divided by once: a is multiplied with a number that
+//! exceeds 1 ÷ b by a factor of at most 1 + 2⁻⁵¹. So products are not less than a ÷ b, and exceed
+//! it by less than 1 ÷ b, as a · 2⁻⁵¹ < 1, with the rounding of the product, too.
 
 use super::Selector;
 use super::operands::{Operands, Source};
@@ -17,6 +21,22 @@ use regalloc2::{Operand, VReg};
 const LOWER: [u32; 16] = [0, 1, 2, 3, 4, 5, 6, 7, 16, 17, 18, 19, 20, 21, 22, 23];
 const UPPER: [u32; 16] = [8, 9, 10, 11, 12, 13, 14, 15, 8, 9, 10, 11, 12, 13, 14, 15];
 
+/// The words of eight ones in binary64, and of eight integers of 64 bits that are 1.
+const ONES: [u32; 16] = [
+    0, ONE, 0, ONE, 0, ONE, 0, ONE, 0, ONE, 0, ONE, 0, ONE, 0, ONE,
+];
+const ONE: u32 = 0x3FF0_0000;
+const NEXT: [u32; 16] = [1, 0, 1, 0, 1, 0, 1, 0, 1, 0, 1, 0, 1, 0, 1, 0];
+
+/// The conversions to binary64 and from it.
+fn conversions(is_signed: bool) -> (&'static VectorOp, &'static VectorOp) {
+    if is_signed {
+        (&vector_op::F64_FROM_S32, &vector_op::S32_FROM_F64)
+    } else {
+        (&vector_op::F64_FROM_U32, &vector_op::U32_FROM_F64)
+    }
+}
+
 impl Selector<'_> {
     /// A quotient or remainder; `None` where it is a call.
     pub(super) fn divide(&mut self, kind: Binary, [a, b]: [Value; 2], half: usize) -> Option<VReg> {
@@ -25,10 +45,15 @@ impl Selector<'_> {
         }
         let is_signed = matches!(kind, Binary::SDiv | Binary::SRem);
         let is_remainder = matches!(kind, Binary::SRem | Binary::URem);
+        let is_splat = self.plan.is_splat(b);
         let [a, b] = [a, b].map(|value| self.word_register(value, half));
-        let lower = self.quotient([a, b], is_signed);
-        let uppers = [a, b].map(|vector| self.two_vectors(vector, UPPER, vector));
-        let upper = self.quotient(uppers, is_signed);
+        let [lower, upper] = if is_splat {
+            self.quotients_by_one(a, b, is_signed)
+        } else {
+            let lower = self.quotient([a, b], is_signed);
+            let uppers = [a, b].map(|vector| self.two_vectors(vector, UPPER, vector));
+            [lower, self.quotient(uppers, is_signed)]
+        };
         let quotient = self.two_vectors(lower, LOWER, upper);
         // Nothing is divided by 0: the quotient is then a, and the remainder 0.
         let zero = self.zero();
@@ -41,13 +66,27 @@ impl Selector<'_> {
         Some(self.blend(is_zero, Source::Register(zero), rest))
     }
 
+    /// The quotients of the lower and of the upper eight lanes by a word that is the same in all.
+    fn quotients_by_one(&mut self, a: VReg, b: VReg, is_signed: bool) -> [VReg; 2] {
+        let (to, from) = conversions(is_signed);
+        let b = self.in_registers(to, b);
+        let one = self.constant_lanes(&ONES);
+        let one = self.in_register(one);
+        let inverse = self.two(&vector_op::DIV_F64, one, Source::Register(b));
+        // The next number away from 0.
+        let next = self.constant_lanes(&NEXT);
+        let inverse = self.two(&vector_op::ADD_64, inverse, next);
+        let upper = self.two_vectors(a, UPPER, a);
+        [a, upper].map(|a| {
+            let a = self.in_registers(to, a);
+            let quotient = self.two(&vector_op::MUL_F64, a, Source::Register(inverse));
+            self.in_registers(from, quotient)
+        })
+    }
+
     /// The quotients of the lower eight lanes.
     fn quotient(&mut self, pair: [VReg; 2], is_signed: bool) -> VReg {
-        let (to, from): (&VectorOp, &VectorOp) = if is_signed {
-            (&vector_op::F64_FROM_S32, &vector_op::S32_FROM_F64)
-        } else {
-            (&vector_op::F64_FROM_U32, &vector_op::U32_FROM_F64)
-        };
+        let (to, from) = conversions(is_signed);
         let [a, b] = pair.map(|vector| self.in_registers(to, vector));
         let quotient = self.two(&vector_op::DIV_F64, a, Source::Register(b));
         self.in_registers(from, quotient)
