@@ -154,6 +154,7 @@ impl Selector<'_> {
             _ if !self.plan.is_reached[at] => Vec::new(),
             // Fewer registers need fewer spills, of which the fast allocator makes many.
             Tier::Fast if self.isa == Isa::Avx2 => scheduler.as_written(at),
+            _ if self.in_order.contains(&at) => scheduler.as_written(at),
             _ => scheduler.by_latency(at),
         };
         blocks.map(of_block).collect()

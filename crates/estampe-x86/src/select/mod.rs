@@ -22,6 +22,7 @@
 //! | [`quadruples`] | loads of the components of vectors |
 //! | [`uniform_loads`] | loads at places that are the same in all lanes |
 //! | [`exact_products`] | nothing: fuses sums of exact products |
+//! | [`overlap`] | nothing: pipelines loops |
 //! | [`strides`] | nothing: finds what grows by the same number from lane to lane |
 //! | [`schedule`] | nothing: orders the operations of a block |
 //! | [`functions`] | blocks, edges, jumps and branches |
@@ -46,6 +47,7 @@ mod lane_loops;
 mod masks;
 mod memory;
 mod operands;
+mod overlap;
 mod plan;
 mod quadruples;
 mod schedule;
@@ -58,9 +60,10 @@ use crate::frame::Frame;
 use crate::machine::{Function, Instruction, MASK, VECTOR};
 use crate::{CompileError, Isa, Tier};
 use calls::Served;
-use estampe_ir::lanes::Kernel;
+use estampe_ir::lanes::{self, Kernel};
 use estampe_ir::op::TextureQuery;
 use estampe_ir::{Op, Type, Value};
+use overlap::overlap;
 use plan::Plan;
 use quadruples::Group;
 use regalloc2::{RegClass, VReg};
@@ -112,6 +115,8 @@ const MAX_FIXED_OFFSET: u32 = 1 << 16;
 struct Selector<'a> {
     kernel: &'a Kernel,
     plan: Plan,
+    /// Blocks whose operations have their order already.
+    in_order: Vec<usize>,
     strides: Strides,
     isa: Isa,
     /// The registers of a value.
@@ -145,6 +150,17 @@ pub(crate) fn select(
     let may_pair = (isa, tier) == (Isa::Avx512, Tier::Optimised);
     let has_pair = may_pair && !kernel.runs_workgroups() && can_pair(kernel, &plan);
     let packets_of_pass = if has_pair { 2 } else { 1 };
+    // Two packets of a pass overlap as they are.
+    let may_overlap = may_pair && !has_pair;
+    let overlapped = may_overlap.then(|| overlap(kernel, &plan)).flatten();
+    let (kernel, plan, in_order) = match &overlapped {
+        Some(overlapped) => {
+            debug_assert_eq!(lanes::verify(&overlapped.kernel), Ok(()));
+            let kernel = &overlapped.kernel;
+            (kernel, Plan::new(kernel), overlapped.bodies.clone())
+        }
+        None => (kernel, plan, Vec::new()),
+    };
     let (places, table_inputs, slots) = hoisted_places(kernel, &plan);
     let slot_bytes = match isa {
         Isa::Avx2 => 32,
@@ -163,6 +179,7 @@ pub(crate) fn select(
     let mut selector = Selector {
         kernel,
         plan,
+        in_order,
         strides,
         isa,
         halves: 1,

@@ -48,12 +48,8 @@ impl Plan {
             constants: vec![None; values],
             is_root: vec![false; values],
         };
-        for (op, value) in kernel.blocks.iter().flat_map(|block| &block.ops) {
-            if matches!(op, Op::Unary(Unary::FSqrt, _)) {
-                plan.is_root[value.index()] = true;
-            }
-        }
         plan.reach(kernel);
+        plan.roots(kernel);
         plan.need(kernel);
         plan.hoist(kernel);
         plan.splat(kernel);
@@ -113,6 +109,33 @@ impl Plan {
     /// True if a value is a square root: normal, infinite, zero or not a number.
     pub(crate) fn is_root(&self, value: Value) -> bool {
         self.is_root[value.index()]
+    }
+
+    /// Parameters are roots whose arguments all are.
+    fn roots(&mut self, kernel: &Kernel) {
+        for block in &kernel.blocks {
+            for &parameter in &block.parameters {
+                self.is_root[parameter.index()] = true;
+            }
+            for (op, value) in &block.ops {
+                if matches!(op, Op::Unary(Unary::FSqrt, _)) {
+                    self.is_root[value.index()] = true;
+                }
+            }
+        }
+        let mut changes = true;
+        while std::mem::take(&mut changes) {
+            let blocks = kernel.blocks.iter().zip(&self.is_reached);
+            let reached = blocks.filter(|(_, is_reached)| **is_reached);
+            for jump in reached.flat_map(|(block, _)| block.terminator.jumps()) {
+                let parameters = &kernel.blocks[jump.to.index()].parameters;
+                for (parameter, argument) in parameters.iter().zip(&jump.arguments) {
+                    if !self.is_root[argument.index()] {
+                        changes |= std::mem::take(&mut self.is_root[parameter.index()]);
+                    }
+                }
+            }
+        }
     }
 
     fn reach(&mut self, kernel: &Kernel) {

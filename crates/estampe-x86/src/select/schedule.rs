@@ -132,7 +132,7 @@ impl<'a> Scheduler<'a> {
 }
 
 /// The cycles after which the result of an operation can be used.
-fn latency(op: &Op) -> u32 {
+pub(super) fn latency(op: &Op) -> u32 {
     match op {
         Op::Constant(_) | Op::MaskConstant(_) => 0,
         Op::Unary(Unary::FSqrt, _) => 24,

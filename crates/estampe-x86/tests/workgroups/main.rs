@@ -1,6 +1,8 @@
 //! Work-groups of many packets: machine code against the interpreter and against what is expected.
 #![cfg(target_arch = "x86_64")]
 
+mod pipelined;
+
 use estampe_ir::interpreter::{
     self, Buffer, InputData, NoTextures, OutputData, Run, Stopped, TextureAccess, Textures, cells,
 };
