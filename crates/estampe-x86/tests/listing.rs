@@ -77,3 +77,23 @@ fn listings_are_what_a_disassembler_reads() {
         }
     }
 }
+
+/// In a loop, a pass computes the iteration of one packet before that of the other one.
+#[test]
+fn packets_of_a_pass_loop_one_after_the_other() {
+    if !Isa::Avx512.is_available() {
+        return;
+    }
+    let listing = Code::listing(&kernel(), Isa::Avx512, Tier::Optimised).expect("it is small");
+    let (_, pair) = listing.split_once("; two packets").expect("it runs pairs");
+    // A sine confines what it is the sine of.
+    let order: Vec<&str> = pair
+        .lines()
+        .filter_map(|line| {
+            ["vminps", "vmaxps"]
+                .into_iter()
+                .find(|one| line.contains(one))
+        })
+        .collect();
+    assert_eq!(order, ["vminps", "vmaxps", "vminps", "vmaxps"], "{pair}");
+}

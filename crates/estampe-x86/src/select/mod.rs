@@ -391,35 +391,7 @@ impl Selector<'_> {
             return Ok(());
         }
         for half in 0..self.halves {
-            let register = match op {
-                Op::Unary(kind, a) => self.unary(*kind, *a, half),
-                Op::Binary(kind, pair) => self.binary(*kind, *pair, half),
-                Op::Fma(three) => Some(self.fma(*three, half)),
-                Op::Select { mask, yes, no } => Some(self.select(*mask, [*yes, *no], half)),
-                Op::Derivative {
-                    axis,
-                    precision,
-                    value,
-                    mask,
-                } => Some(self.derivative((*axis, *precision), (*value, *mask), half)),
-                Op::QuadLane { lane, value, mask } => {
-                    Some(self.quad_lane(*lane, (*value, *mask), half))
-                }
-                Op::Compare(kind, pair) => Some(self.compare(*kind, *pair, half)),
-                Op::MaskNot(a) => Some(self.mask_not(*a, half)),
-                Op::MaskBinary(kind, pair) => Some(self.mask_binary(*kind, *pair, half)),
-                Op::QuadAny(a) => {
-                    let mask = self.mask(*a, half);
-                    Some(self.quads(mask, false))
-                }
-                Op::Any(a) => Some(self.any(*a)),
-                Op::Input(at) | Op::InputMask(at) => Some(self.input(*at, half)),
-                Op::LoadLocal { array, index } => Some(self.load_local(*array, *index, half)),
-                Op::LoadBuffer { buffer, offset } => Some(self.load_buffer(*buffer, *offset, half)),
-                Op::LoadWorkgroup(index) => Some(self.load_workgroup(*index, half)),
-                _ => None,
-            };
-            let Some(register) = register else {
+            let Some(register) = self.half_of(op, half) else {
                 return self.call(op, first);
             };
             self.define(first, half, register);
@@ -431,5 +403,37 @@ impl Selector<'_> {
             }
         }
         Ok(())
+    }
+
+    /// A half of an operation's result; `None` if a call does it.
+    fn half_of(&mut self, op: &Op, half: usize) -> Option<VReg> {
+        match op {
+            Op::Unary(kind, a) => self.unary(*kind, *a, half),
+            Op::Binary(kind, pair) => self.binary(*kind, *pair, half),
+            Op::Fma(three) => Some(self.fma(*three, half)),
+            Op::Select { mask, yes, no } => Some(self.select(*mask, [*yes, *no], half)),
+            Op::Derivative {
+                axis,
+                precision,
+                value,
+                mask,
+            } => Some(self.derivative((*axis, *precision), (*value, *mask), half)),
+            Op::QuadLane { lane, value, mask } => {
+                Some(self.quad_lane(*lane, (*value, *mask), half))
+            }
+            Op::Compare(kind, pair) => Some(self.compare(*kind, *pair, half)),
+            Op::MaskNot(a) => Some(self.mask_not(*a, half)),
+            Op::MaskBinary(kind, pair) => Some(self.mask_binary(*kind, *pair, half)),
+            Op::QuadAny(a) => {
+                let mask = self.mask(*a, half);
+                Some(self.quads(mask, false))
+            }
+            Op::Any(a) => Some(self.any(*a)),
+            Op::Input(at) | Op::InputMask(at) => Some(self.input(*at, half)),
+            Op::LoadLocal { array, index } => Some(self.load_local(*array, *index, half)),
+            Op::LoadBuffer { buffer, offset } => Some(self.load_buffer(*buffer, *offset, half)),
+            Op::LoadWorkgroup(index) => Some(self.load_workgroup(*index, half)),
+            _ => None,
+        }
     }
 }
