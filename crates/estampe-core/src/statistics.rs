@@ -65,6 +65,10 @@ pub struct Statistics {
     /// depend on the SIMD level.
     #[doc(hidden)]
     pub rectangles_in_order: u64,
+    /// Those of them that were not listed with others, but covered alone. They depend on the SIMD
+    /// level.
+    #[doc(hidden)]
+    pub boxes_in_order: u64,
     /// Runs that are drawn in order whose fragments shared the queue with those of the run before.
     #[doc(hidden)]
     pub queues_kept: u64,
@@ -148,6 +152,7 @@ impl std::ops::AddAssign for Statistics {
         }
         self.small_triangle_pixels += other.small_triangle_pixels;
         self.rectangles_in_order += other.rectangles_in_order;
+        self.boxes_in_order += other.boxes_in_order;
         self.queues_kept += other.queues_kept;
         self.triangles_gathered_in_tiles += other.triangles_gathered_in_tiles;
         self.packets_failing_depth += other.packets_failing_depth;

@@ -23,9 +23,6 @@
 use crate::bounds::primitives::{TrianglePacket, VertexRef};
 use estampe_simd::{Bytes, LANES, Lane, Lanes, SimdBase, f32x16, i32x16, u32x16};
 
-/// Rectangles are smaller than this, in 1/256 pixel: larger triangles are drawn one by one.
-const SMALL: i32 = 16 * 256;
-
 /// Varyings of a rectangle are smaller, so that no product overflows: W and H are below 2¹⁶.
 const MOST: f32 = 1e30;
 
@@ -68,11 +65,10 @@ pub(super) fn rectangles<'a, S: Lanes>(
     found
 }
 
-/// The triangles of a packet that are halves of boxes, and those that are small.
+/// The triangles of a packet that are halves of boxes.
 struct Shapes {
     upper: u16,
     lower: u16,
-    small: u16,
 }
 
 impl Shapes {
@@ -81,18 +77,16 @@ impl Shapes {
         let load = |lanes: &[i32; LANES]| i32x16::load_array_ref(s, lanes);
         let [x0, x1, x2] = [load(&packet.x[0]), load(&packet.x[1]), load(&packet.x[2])];
         let [y0, y1, y2] = [load(&packet.y[0]), load(&packet.y[1]), load(&packet.y[2])];
-        let small = <i32x16<S> as SimdBase<S>>::splat(s, SMALL);
         Self {
             upper: s.bits_of_mask(y0.simd_eq(y1) & x1.simd_eq(x2)),
             lower: s.bits_of_mask(x0.simd_eq(x1) & y1.simd_eq(y2)),
-            small: s.bits_of_mask((x2 - x0).simd_lt(small) & (y2 - y0).simd_lt(small)),
         }
     }
 
     /// The lanes of halves whose next lane is another half.
     #[inline(always)]
     fn pairs(&self) -> u16 {
-        (self.upper & self.lower >> 1 | self.lower & self.upper >> 1) & self.small
+        self.upper & self.lower >> 1 | self.lower & self.upper >> 1
     }
 }
 

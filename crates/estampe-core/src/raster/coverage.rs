@@ -1,5 +1,6 @@
 //! Coverage of one primitive in one tile: a list of packets with a mask for each sample.
 
+use super::clip_masks::ClipMasks;
 use super::walk::WalkScratch;
 use super::{MAX_SAMPLES, SampleSet, packet_origin};
 use crate::bounds::pixel_rect::PixelRect;
@@ -163,20 +164,47 @@ impl<const N: usize> CoverageList<N> {
             item.masks.iter_mut().for_each(|mask| *mask &= inside);
         });
     }
+
+    /// [`CoverageList::clip`], where many lists are clipped to one rectangle.
+    #[inline(always)]
+    pub(crate) fn clip_to(&mut self, masks: &ClipMasks) {
+        self.retain(
+            #[inline(always)]
+            |item| {
+                let inside = masks.of_packet(item.packet);
+                item.masks.iter_mut().for_each(|mask| *mask &= inside);
+            },
+        );
+    }
 }
 
 /// The lanes of the packet at (x, y) that lie in a rectangle of the tile's pixels.
 #[inline(always)]
 pub(crate) fn rect_mask(rect: &PixelRect, x: i32, y: i32) -> u16 {
-    /// Lanes whose column (row) is at least 0, 1, 2, 3, 4.
-    const COLUMNS_FROM: [u16; 5] = lanes_from(&estampe_simd::LANE_X);
-    const ROWS_FROM: [u16; 5] = lanes_from(&estampe_simd::LANE_Y);
     let at = |edge: i32, origin: i32| (edge - origin).clamp(0, 4) as usize;
     COLUMNS_FROM[at(rect.x0, x)]
         & !COLUMNS_FROM[at(rect.x1, x)]
         & ROWS_FROM[at(rect.y0, y)]
         & !ROWS_FROM[at(rect.y1, y)]
 }
+
+/// The lanes of a packet that begins at column x whose columns are from one on, before another one.
+#[inline(always)]
+pub(super) fn lanes_of_columns([first, end]: [i32; 2], x: i32) -> u16 {
+    let at = |edge: i32| (edge - x).clamp(0, 4) as usize;
+    COLUMNS_FROM[at(first)] & !COLUMNS_FROM[at(end)]
+}
+
+/// The lanes of a packet that begins at row y whose rows are from one on, before another one.
+#[inline(always)]
+pub(super) fn lanes_of_rows([first, end]: [i32; 2], y: i32) -> u16 {
+    let at = |edge: i32| (edge - y).clamp(0, 4) as usize;
+    ROWS_FROM[at(first)] & !ROWS_FROM[at(end)]
+}
+
+/// Lanes whose column (row) is at least 0, 1, 2, 3, 4.
+const COLUMNS_FROM: [u16; 5] = lanes_from(&estampe_simd::LANE_X);
+const ROWS_FROM: [u16; 5] = lanes_from(&estampe_simd::LANE_Y);
 
 const fn lanes_from(coordinate: &[u8; LANES]) -> [u16; 5] {
     let mut masks = [0; 5];

@@ -31,6 +31,10 @@ pub(crate) mod pixel_list;
 
 pub(crate) mod packet_edges;
 
+pub(crate) mod pixel_box;
+
+pub(crate) mod clip_masks;
+
 pub(crate) mod conservative;
 
 pub(crate) mod line;

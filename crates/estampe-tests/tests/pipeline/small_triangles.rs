@@ -240,7 +240,8 @@ fn sprite(random: &mut Random, size: [u32; 2]) -> [Vertex; 6] {
     let grid = random.pick(&[1.0, 2.0, 16.0, 256.0]);
     let mut at = |least: f32, most: f32| (random.range(least, most) * grid).round() / grid;
     let [x, y] = [at(-4.0, 150.0), at(-4.0, 100.0)];
-    let most = 18.0;
+    let most = random.pick(&[18.0, 18.0, 18.0, 70.0]);
+    let mut at = |least: f32, most: f32| (random.range(least, most) * grid).round() / grid;
     let [mut right, bottom] = [x + at(0.5, most), y + at(0.5, most)];
     let w = random.pick(&[1.0, 1.0, 0.3, 7.0]);
     let depth = random.range(0.0, 1.0);
@@ -337,10 +338,13 @@ fn rectangles_in_order_are_boxes() {
             case
         });
         let (rectangles, kept) = (statistics.rectangles_in_order, statistics.queues_kept);
-        assert!(
-            (rectangles > 100) == (samples == 1),
-            "{samples} samples: {rectangles} rectangles"
-        );
+        let boxes = statistics.boxes_in_order;
+        for counted in [rectangles, boxes] {
+            assert!(
+                (counted > 100) == (samples == 1),
+                "{samples} samples: {rectangles} rectangles, {boxes} of them alone"
+            );
+        }
         assert!(kept > 10, "{samples} samples: {kept} runs shared a queue");
     }
 }

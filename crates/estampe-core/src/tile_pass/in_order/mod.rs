@@ -7,6 +7,7 @@
 //! ```text
 //!   coverage ─▶ early tests ─▶ queue ─▶ shader ─▶ late tests ─▶ colours
 //!      ├─ large triangles, blended from their planes (`layers`)
+//!      ├─ two triangles that are a rectangle (`boxes`)
 //!      └─ small triangles and lines, sixteen at a time (`small`, `small_lines`)
 //! ```
 
@@ -25,6 +26,7 @@ macro_rules! dispatch_samples {
 }
 
 mod ahead;
+mod boxes;
 mod dense;
 mod flush;
 mod layers;
@@ -47,6 +49,7 @@ use crate::fragment::last_packet::LastPacket;
 use crate::per_sample::hiz::{BlockClasses, HizQuery};
 use crate::per_sample::source_over::Layers;
 use crate::plan::tile_plan::{TestTiming, TilePlan};
+use crate::raster::clip_masks::ClipMasks;
 use crate::raster::conservative::ConservativeTriangle;
 use crate::raster::triangle::TileTriangle;
 use crate::raster::{CoverageList, SampleSet, line, point};
@@ -63,6 +66,8 @@ use solid::Solid;
 #[derive(Debug)]
 pub(super) struct InOrderScratch<const N: usize> {
     list: CoverageList<N>,
+    /// What lists are clipped to.
+    clip: ClipMasks,
     /// The list before early tests, where shading depends on it.
     covered: CoverageList<N>,
     /// Planes of one triangle's varyings.
@@ -84,6 +89,7 @@ impl<const N: usize> Default for InOrderScratch<N> {
     fn default() -> Self {
         Self {
             list: CoverageList::default(),
+            clip: ClipMasks::default(),
             covered: CoverageList::default(),
             planes: Vec::new(),
             waiting: None,
@@ -311,13 +317,18 @@ impl<'a, const N: usize> InOrder<'a, '_, '_, '_, N> {
         N == 1 && self.to == FragmentsTo::Visibility
     }
 
-    /// Draws a triangle alone.
+    /// Draws a triangle alone, or the rectangle of which it is half: `is_box`.
     #[inline(always)]
-    fn triangle<S: Lanes>(&mut self, s: S, triangle: &Triangle) {
+    fn triangle<S: Lanes>(&mut self, s: S, triangle: &Triangle, is_box: bool) {
         let (plan, front) = (self.work.plan, triangle.front);
         let plane = DepthPlane::new(triangle);
         let blends_blocks = self.blends_blocks && triangle.equal_w;
-        let Some(coverage) = self.cover(s, triangle, &plane, blends_blocks) else {
+        let coverage = if is_box {
+            self.cover_box(triangle, &plane)
+        } else {
+            self.cover(s, triangle, &plane, blends_blocks)
+        };
+        let Some(coverage) = coverage else {
             return;
         };
         if self.stores_in_order {
@@ -373,7 +384,6 @@ impl<'a, const N: usize> InOrder<'a, '_, '_, '_, N> {
             rect,
             is_whole,
             blocks,
-            level,
             ..
         } = *self.work;
         let list = &mut self.scratch.in_order.list;
@@ -384,33 +394,36 @@ impl<'a, const N: usize> InOrder<'a, '_, '_, '_, N> {
             return Some(WholeBlocks::default());
         }
         let polygon = TileTriangle::<N>::new(triangle, shape, &rect, self.samples)?;
-        let mut classes = BlockClasses::of_all(0, 0);
-        if self.uses_hiz && polygon.packets() > HIZ_PACKETS {
-            let look = HizQuery {
-                tests: &self.work.plan.tests,
-                plane: *plane,
-                tile: shape,
-                samples: self.samples,
-                passes_in_vain: false,
-            };
-            classes = self
-                .scratch
-                .hiz
-                .classify(level, &look, false, self.job.depth);
-            if classes.hidden == u16::MAX {
-                return None;
-            }
-        }
+        let classes = self.classify(plane, polygon.packets())?;
         let blocks = if blends_blocks { blocks } else { 0 };
-        let list = &mut self.scratch.in_order.list;
+        let InOrderScratch { list, clip, .. } = &mut self.scratch.in_order;
         let whole = polygon.cover(s, shape, classes.hidden, blocks, list);
         if !is_whole && !polygon.is_inside() {
-            list.clip(&rect);
+            list.clip_to(clip.of(&rect));
         }
         Some(WholeBlocks {
             whole,
             certain: classes.certain,
         })
+    }
+
+    /// What hierarchical z says of a primitive whose box touches so many packets of the tile;
+    /// `None` if it is hidden everywhere.
+    #[inline(always)]
+    fn classify(&mut self, plane: &DepthPlane, packets: i32) -> Option<BlockClasses> {
+        if !self.uses_hiz || packets <= HIZ_PACKETS {
+            return Some(BlockClasses::of_all(0, 0));
+        }
+        let look = HizQuery {
+            tests: &self.work.plan.tests,
+            plane: *plane,
+            tile: self.work.shape,
+            samples: self.samples,
+            passes_in_vain: false,
+        };
+        let (level, depth) = (self.work.level, &*self.job.depth);
+        let classes = self.scratch.hiz.classify(level, &look, false, depth);
+        (classes.hidden != u16::MAX).then_some(classes)
     }
 
     /// Notes that one more primitive is drawn next.
@@ -480,10 +493,10 @@ impl<const N: usize> InOrder<'_, '_, '_, '_, N> {
         if let LineOrPoint::Line(line) = interpolant
             && let Some(width) = plan.line_style.plain_rectangle()
         {
-            let list = &mut self.scratch.in_order.list;
+            let InOrderScratch { list, clip, .. } = &mut self.scratch.in_order;
             line::cover_rectangle(s, (line.primitive(), width), *shape, rect, list);
             if !is_whole {
-                list.clip(rect);
+                list.clip_to(clip.of(rect));
             }
         }
     }

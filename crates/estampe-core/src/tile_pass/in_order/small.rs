@@ -255,9 +255,11 @@ impl<const N: usize> InOrder<'_, '_, '_, '_, N> {
                 self.list_pixels::<OfTriangles>((lanes & 0xFFFF) as u16);
                 next = lane + run;
             } else {
-                let triangles = [Some(member.triangle), member.second];
-                for triangle in triangles.into_iter().flatten() {
-                    self.triangle(s, &triangle.unpack());
+                // Blocks are blended triangle by triangle.
+                let second = member.second.filter(|_| self.blends_blocks);
+                let is_box = member.second.is_some() && second.is_none();
+                for triangle in [Some(member.triangle), second].into_iter().flatten() {
+                    self.triangle(s, &triangle.unpack(), is_box);
                 }
                 next = lane + 1;
             }
