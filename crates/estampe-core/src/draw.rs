@@ -427,19 +427,19 @@ impl Context {
                 executor.for_each_ahead(&mut jobs, &memory.tiles_1, |job, next, scratch| {
                     tile_pass::draw(&pass, job, next, scratch);
                 });
-                take_statistics(&mut memory.tiles_1, &mut statistics);
+                end_pass(&mut memory.tiles_1, &mut statistics);
             }
             4 if !self.level.is_scalar() => {
                 executor.for_each_ahead(&mut jobs, &memory.tiles_4, |job, next, scratch| {
                     tile_pass::draw(&pass, job, next, scratch);
                 });
-                take_statistics(&mut memory.tiles_4, &mut statistics);
+                end_pass(&mut memory.tiles_4, &mut statistics);
             }
             _ => {
                 executor.for_each_ahead(&mut jobs, &memory.tiles_many, |job, next, scratch| {
                     tile_pass::draw(&pass, job, next, scratch);
                 });
-                take_statistics(&mut memory.tiles_many, &mut statistics);
+                end_pass(&mut memory.tiles_many, &mut statistics);
             }
         }
         for chunk in chunks {
@@ -495,9 +495,9 @@ fn tile_jobs<'a>(target: &'a mut RenderTarget, jobs: &mut Vec<TileJob<'a>>) {
     }
 }
 
-fn take_statistics<const N: usize>(scratch: &mut [Mutex<TileScratch<N>>], total: &mut Statistics) {
+fn end_pass<const N: usize>(scratch: &mut [Mutex<TileScratch<N>>], total: &mut Statistics) {
     for worker in scratch {
         let worker = worker.get_mut().unwrap_or_else(PoisonError::into_inner);
-        *total += std::mem::take(&mut worker.statistics);
+        *total += worker.end_pass();
     }
 }

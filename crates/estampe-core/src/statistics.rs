@@ -69,6 +69,10 @@ pub struct Statistics {
     /// level.
     #[doc(hidden)]
     pub boxes_in_order: u64,
+    /// Packets of one colour for which the program was not run, because it had been for the same
+    /// varyings.
+    #[doc(hidden)]
+    pub colors_kept: u64,
     /// Runs that are drawn in order whose fragments shared the queue with those of the run before.
     #[doc(hidden)]
     pub queues_kept: u64,
@@ -153,6 +157,7 @@ impl std::ops::AddAssign for Statistics {
         self.small_triangle_pixels += other.small_triangle_pixels;
         self.rectangles_in_order += other.rectangles_in_order;
         self.boxes_in_order += other.boxes_in_order;
+        self.colors_kept += other.colors_kept;
         self.queues_kept += other.queues_kept;
         self.triangles_gathered_in_tiles += other.triangles_gathered_in_tiles;
         self.packets_failing_depth += other.packets_failing_depth;

@@ -126,7 +126,7 @@ pub(crate) struct TileScratch<const N: usize> {
     tile: WorkerTile,
     /// True if colours of the tile wait to be cleared.
     colors_wait: bool,
-    pub(crate) statistics: Statistics,
+    statistics: Statistics,
 }
 
 /// Draws a tile; `next` is the one that the worker draws then.
@@ -236,6 +236,12 @@ fn clear_colors<const N: usize>(
 }
 
 impl<const N: usize> TileScratch<N> {
+    /// Ends a pass: what is known of its draws is forgotten. Gives what was counted.
+    pub(crate) fn end_pass(&mut self) -> Statistics {
+        self.in_order.end_pass();
+        std::mem::take(&mut self.statistics)
+    }
+
     /// Counts the primitives of a path.
     fn count(&mut self, path: TilePath, entries: &[BinEntry]) {
         let counts = entries.iter().map(|entry| match entry {

@@ -102,6 +102,8 @@ fn triangles_of_one_colour_are_gathered() {
         statistics.triangles_gathered > 0,
         "no triangle's pixels were written with another's"
     );
+    let kept = statistics.colors_kept;
+    assert!(kept > 100, "{kept} colours were kept");
 }
 
 /// Rows: O5, V4.

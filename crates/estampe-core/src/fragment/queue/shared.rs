@@ -38,6 +38,22 @@ impl<const N: usize> FragmentQueue<N> {
         self.empty_solid();
     }
 
+    /// The colours of [`FragmentQueue::shade_solid`].
+    #[inline(always)]
+    pub(crate) fn solid_colors(&self) -> &[Packet<f32>] {
+        &self.colors[..self.colors_each * 4]
+    }
+
+    /// Sets colours that [`FragmentQueue::solid_colors`] gave before, in place of shading.
+    #[inline(always)]
+    pub(crate) fn set_solid_colors(&mut self, colors: &[Packet<f32>]) {
+        debug_assert_eq!(self.len, 0, "packets of other primitives are still queued");
+        self.shaded_len = 1;
+        for (to, color) in self.colors.iter_mut().zip(colors) {
+            *to = *color;
+        }
+    }
+
     /// Adds a packet that has the colours of [`FragmentQueue::shade_solid`]. The queue must not be
     /// full.
     #[inline(always)]

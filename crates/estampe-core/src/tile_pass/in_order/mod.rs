@@ -35,6 +35,7 @@ mod shade;
 mod small;
 mod small_lines;
 mod solid;
+mod solid_colors;
 mod tests;
 
 use super::fragments::Fragments;
@@ -61,6 +62,7 @@ use shade::PendingQuads;
 use small::{Batch, Listing, SmallScratch};
 use small_lines::LineBatch;
 use solid::Solid;
+use solid_colors::SolidColors;
 
 /// Memory of one worker.
 #[derive(Debug)]
@@ -76,6 +78,7 @@ pub(super) struct InOrderScratch<const N: usize> {
     waiting: Option<[u32; 2]>,
     pending: PendingQuads,
     solid: Solid<N>,
+    solid_colors: SolidColors,
     small: Box<SmallScratch<N>>,
     fragments: Box<Fragments>,
     last_packet: Box<LastPacket>,
@@ -95,6 +98,7 @@ impl<const N: usize> Default for InOrderScratch<N> {
             waiting: None,
             pending: PendingQuads::default(),
             solid: Solid::default(),
+            solid_colors: SolidColors::default(),
             small: Box::default(),
             fragments: Box::default(),
             last_packet: Box::default(),
@@ -200,10 +204,34 @@ fn begin_queue<const N: usize>(
     scratch
         .queue
         .configure(pipeline, samples, range, tests_late);
+    if pipeline.interface().stores {
+        // Colours may depend on what it stores.
+        scratch.in_order.solid_colors.clear();
+    }
     if gathers(plan) {
         scratch
             .solid_queue
             .configure(pipeline, samples, range, tests_late);
+        let colors = &mut scratch.in_order.solid_colors;
+        let before = colors.sub_draw().map(|of| &pass.plans[of as usize]);
+        if pipeline.key().color_passthrough {
+            // Colours that are varyings need no program.
+            colors.clear();
+        } else if before.is_none_or(|of| !of.shades_like(plan)) {
+            let interface = pipeline.interface();
+            colors.begin(
+                work.sub_draw,
+                interface.varyings.len(),
+                interface.colors() * 4,
+            );
+        }
+    }
+}
+
+impl<const N: usize> InOrderScratch<N> {
+    /// Forgets what is kept from tile to tile of a pass.
+    pub(super) fn end_pass(&mut self) {
+        self.solid_colors.clear();
     }
 }
 

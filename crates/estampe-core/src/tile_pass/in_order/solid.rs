@@ -127,8 +127,16 @@ impl<const N: usize> InOrder<'_, '_, '_, '_, N> {
         let (plan, level) = (self.work.plan, self.work.level);
         let scratch = &mut *self.scratch;
         let (solid, queue) = (&mut scratch.in_order.solid, &mut scratch.solid_queue);
-        let varyings = (solid.varyings.as_slice(), solid.front);
-        queue.shade_solid(level, plan.pipeline, plan.bindings, varyings);
+        let (varyings, front) = (solid.varyings.as_slice(), solid.front);
+        let kept = &mut scratch.in_order.solid_colors;
+        let (place, found) = kept.find(varyings, front);
+        if let Some(color) = found {
+            queue.set_solid_colors(color);
+            scratch.statistics.colors_kept += 1;
+        } else {
+            queue.shade_solid(level, plan.pipeline, plan.bindings, (varyings, front));
+            kept.keep(place, (varyings, front), queue.solid_colors());
+        }
         let (mut fragments, mut packets) = (0, 0);
         let colors = &mut self.job.colors;
         solid.take_each(|packet, masks| {
