@@ -191,6 +191,13 @@ impl Reads {
     }
 }
 
+/// Packets that a texture is asked for together: those of most batches.
+const TOGETHER: usize = 16;
+
+fn clear(texel: &mut [Packet<f32>; CHANNELS]) {
+    *texel = [Packet::default(); CHANNELS];
+}
+
 impl Group {
     fn sample(
         &self,
@@ -212,13 +219,23 @@ impl Group {
                 return;
             }
         }
-        let packets = scalars.chunks_exact(stride.max(1));
-        for (scalars, texels) in packets.zip(texels.chunks_mut(each)) {
-            let asked = self.place.request(scalars);
-            for (texture, texel) in sampled.iter().zip(texels) {
+        let mut packets = scalars.chunks_exact(stride.max(1));
+        for texels in texels.chunks_mut(TOGETHER * each) {
+            let mut requests = [PacketRequest::ZEROS; TOGETHER];
+            let mut count = 0;
+            for (asked, scalars) in requests.iter_mut().zip(&mut packets) {
+                self.place.ask(scalars, asked);
+                count += 1;
+            }
+            for (texture, first) in sampled.iter().zip(0..) {
+                let Some(texels) = texels.get_mut(first..) else {
+                    break;
+                };
                 match texture {
-                    Some(texture) => texture.sample_request(&asked, texel),
-                    None => *texel = [Packet::default(); CHANNELS],
+                    Some(texture) => {
+                        texture.sample_requests(&requests[..count], texels, each);
+                    }
+                    None => texels.iter_mut().step_by(each).for_each(clear),
                 }
             }
         }
@@ -248,9 +265,9 @@ impl Place {
         })
     }
 
-    /// What a packet with these scalars asks for.
-    fn request<'a>(&self, scalars: &'a [Packet<f32>]) -> PacketRequest<'a> {
-        let mut asked = PacketRequest::ZEROS;
+    /// Sets what a packet with these scalars asks for, in a request of zeros.
+    #[inline]
+    fn ask<'a>(&self, scalars: &'a [Packet<f32>], asked: &mut PacketRequest<'a>) {
         for (to, scalar) in asked.at.iter_mut().zip(&self.coordinates) {
             *to = &scalars[*scalar];
         }
@@ -270,7 +287,6 @@ impl Place {
                 }
             }
         }
-        asked
     }
 }
 

@@ -241,6 +241,27 @@ impl SampledTexture {
         }
     }
 
+    /// The colours of several requests, as [`sample_request`](Self::sample_request) gives them;
+    /// those of each are `step` after those of the one before. True if the code of the SIMD level
+    /// was entered once for all of them.
+    ///
+    /// # Panics
+    /// If the step is 0.
+    pub fn sample_requests(
+        &self,
+        requests: &[PacketRequest<'_>],
+        colors: &mut [Colors],
+        step: usize,
+    ) -> bool {
+        if self.common().is_none() && self.sample_packets(requests, colors, step) {
+            return true;
+        }
+        for (request, colors) in requests.iter().zip(colors.iter_mut().step_by(step)) {
+            self.sample_request(request, colors);
+        }
+        false
+    }
+
     /// The colours of sixteen lanes, as [`sample_request`](Self::sample_request) gives them.
     #[inline]
     pub fn sample_flat(&self, at: PacketPlace<'_>, colors: &mut Colors) {

@@ -260,6 +260,47 @@ fn packets_are_sampled_as_their_quads() {
 }
 
 #[test]
+fn requests_are_sampled_together_as_alone() {
+    use ViewDimension as V;
+    let random = &mut Random::new(92);
+    let untouched = [Packet([7.0; LANES]); 4];
+    let views = [(V::D2, [40, 24]), (V::D2Array, [3, 17]), (V::Cube, [8, 8])];
+    for ((dimension, size), format) in views
+        .into_iter()
+        .flat_map(|view| FORMATS.map(|format| (view, format)))
+    {
+        let view = view(dimension, size, format);
+        for sampler in samplers() {
+            let texture = SampledTexture::new(view.clone(), sampler).expect("valid");
+            let asked: Vec<_> = (0..21)
+                .map(|_| Asked::random(random, dimension == V::Cube))
+                .collect();
+            let requests: Vec<_> = asked.iter().map(Asked::request).collect();
+            for level in Level::all_available() {
+                let texture = texture.clone().at_level(level);
+                let mut together = vec![untouched; 2 * requests.len()];
+                let is_one_entry = texture.sample_requests(&requests, &mut together, 2);
+                let has_code = level.is_specialized() && sampler.max_anisotropy <= 1;
+                assert_eq!(is_one_entry, has_code, "{level:?} {sampler:?}");
+                for (request, colors) in requests.iter().zip(together.chunks(2)) {
+                    let mut alone = untouched;
+                    texture.sample_request(request, &mut alone);
+                    let bits = |color: &[Packet<f32>; 4]| {
+                        color.each_ref().map(|channel| channel.0.map(f32::to_bits))
+                    };
+                    assert_eq!(
+                        bits(&colors[0]),
+                        bits(&alone),
+                        "{level:?} {dimension:?} {format:?} {sampler:?}"
+                    );
+                    assert_eq!(colors[1], untouched);
+                }
+            }
+        }
+    }
+}
+
+#[test]
 fn lanes_across_an_edge_of_a_cube_stay_in_their_packet() {
     let view = view(ViewDimension::Cube, [32, 32], TextureFormat::Rgba8Unorm);
     let sampler = SamplerDescriptor::trilinear_repeat();

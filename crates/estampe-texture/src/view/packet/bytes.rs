@@ -46,7 +46,7 @@ impl Packet<'_> {
     /// The common case. Other packets are behind a second call, so that this one keeps nothing in
     /// memory for them.
     #[inline(always)]
-    fn sample_bytes<S: SimdLanes, const KIND: u8>(
+    pub(super) fn sample_bytes<S: SimdLanes, const KIND: u8>(
         &self,
         s: S,
         table: &LevelTable,

@@ -11,6 +11,7 @@
 //! (a border, an offset, a cube's edge), the scalar code samples the lane again: there are few such
 //! lanes.
 
+mod batch;
 mod block;
 mod bytes;
 mod each_level;
