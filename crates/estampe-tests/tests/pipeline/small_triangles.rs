@@ -348,3 +348,24 @@ fn rectangles_in_order_are_boxes() {
         assert!(kept > 10, "{samples} samples: {kept} runs shared a queue");
     }
 }
+
+/// Sprites whose triangles are blended from their planes where they cover blocks.
+///
+/// Rows: R1, O5.
+#[test]
+fn rectangles_that_cover_blocks_are_two_triangles() {
+    let paths = ExpectedPaths(&[TilePath::InOrderBlocks]);
+    let statistics = check_paths("small_triangles/blocks", 24, paths, |random| {
+        let mut case = Case::new([150, 100], 1);
+        let mut vertices = Vec::new();
+        for _ in 0..60 {
+            vertices.extend(sprite(random, case.size));
+        }
+        let mut draw = CaseDraw::new(Colored, &vertices);
+        draw.blend = Some(BlendState::ALPHA_BLENDING);
+        case.draws.push(draw);
+        case
+    });
+    assert!(statistics.rectangles_in_order > 100);
+    assert_eq!(statistics.boxes_in_order, 0);
+}
