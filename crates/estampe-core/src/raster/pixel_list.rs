@@ -177,8 +177,8 @@ mod tests {
     #[test]
     fn blocks_are_those_of_the_listed_pixels() {
         let mut list = Box::new(PixelList::default());
-        for (at, place) in list.places.iter_mut().enumerate() {
-            *place = (at as u32).wrapping_mul(2_654_435_761) >> 20;
+        for (at, place) in (0_u32..).zip(list.places.iter_mut()) {
+            *place = at.wrapping_mul(2_654_435_761) >> 20;
         }
         for len in [0, 1, 2, 15, 16, 17, 40, MOST] {
             list.len = len;
