@@ -33,6 +33,8 @@ const UNSAFE_CRATES: &[(&str, &[&str])] = &[
             "crates/estampe-simd/src/gather/pairs.rs",
             "crates/estampe-simd/src/gather/single.rs",
             "crates/estampe-simd/src/gather/squares.rs",
+            // The system is asked for huge pages.
+            "crates/estampe-simd/src/huge_pages.rs",
         ],
     ),
     // Machine code: the pages that hold it, and the calls into it and out of it.

@@ -31,6 +31,7 @@ mod block;
 mod gather;
 #[cfg(target_arch = "x86_64")]
 mod half;
+mod huge_pages;
 mod index;
 mod lanes;
 mod level;
@@ -51,6 +52,7 @@ pub use fearless_simd::{
 #[doc(hidden)]
 pub use gather::SquareLoads;
 pub use gather::{bits_of, bits_of_mut, floats_of, floats_of_mut, ints_of, words_of};
+pub use huge_pages::advise_huge_pages;
 pub use index::{Lane, LanesOf, PacketIndex};
 pub use lanes::Lanes;
 pub use level::{Level, LevelError};

@@ -1,9 +1,10 @@
 //! Creation of 2D textures of four 8-bit channels from bytes.
 
-use crate::TextureError;
-use crate::mips;
-use estampe_types::{Limits, MipLevel, TexelData, TexelEncoding, TextureFormat, TextureShape};
-use std::iter::repeat_n;
+use crate::descriptor::zeros;
+use crate::{TextureError, mips};
+use estampe_types::{
+    Limits, Lines, MipLevel, TexelData, TexelEncoding, TextureFormat, TextureShape,
+};
 use std::sync::Arc;
 
 /// The most texels of all levels: their offsets fit the signed 32-bit indices of lane code.
@@ -50,7 +51,7 @@ pub fn create_texture(
         for pair in levels.windows(2) {
             mips::halve_level(texels, pair[0], pair[1], format);
         }
-    });
+    })?;
     Ok(texture(format, levels, texels))
 }
 
@@ -74,19 +75,21 @@ pub fn create_texture_with_levels(
         for (level, bytes) in layout.iter().zip(levels) {
             store(&mut texels[level.offset as usize..], bytes);
         }
-    });
+    })?;
     Ok(texture(format, layout, texels))
 }
 
-/// Shared texels of all levels, filled in their place: a vector would be copied when it is shared,
-/// and the memory of a large texture be taken twice.
-fn filled(levels: &[MipLevel], fill: impl FnOnce(&mut [u32])) -> Arc<[u32]> {
-    let mut texels: Arc<[u32]> = repeat_n(0, texel_count(levels)).collect();
-    fill(Arc::get_mut(&mut texels).expect("nobody else has the texels yet"));
-    texels
+/// Texels of all levels, filled in their place.
+fn filled(
+    levels: &[MipLevel],
+    fill: impl FnOnce(&mut [u32]),
+) -> Result<Arc<Lines<u32>>, TextureError> {
+    let mut texels = zeros(texel_count(levels))?;
+    fill(&mut texels);
+    Ok(Arc::new(texels))
 }
 
-fn texture(format: TextureFormat, levels: Vec<MipLevel>, texels: Arc<[u32]>) -> TexelData {
+fn texture(format: TextureFormat, levels: Vec<MipLevel>, texels: Arc<Lines<u32>>) -> TexelData {
     TexelData {
         format,
         levels,

@@ -3,7 +3,10 @@
 
 use crate::upload::{self, LevelData};
 use crate::{MipGeneration, TextureError, generate, region};
-use estampe_types::{Limits, MipLevel, TexelData, TextureDimension, TextureFormat, TextureShape};
+use estampe_types::{
+    Limits, Lines, MipLevel, TexelData, TextureDimension, TextureFormat, TextureShape,
+};
+use std::sync::Arc;
 
 /// The most 32-bit words of a texture: their indices fit the signed 32-bit integers of lane code.
 const MAX_WORDS: u64 = i32::MAX as u64;
@@ -82,7 +85,7 @@ impl TexelDescriptor {
         let mut texture = TexelData {
             format: self.format,
             levels: Vec::new(),
-            texels: [].into(),
+            texels: Arc::default(),
             is_opaque: false,
             shape: self.shape(),
         };
@@ -124,7 +127,7 @@ impl TexelDescriptor {
         }
         texture.is_opaque = texture.stored_format() == TextureFormat::Rgba8Unorm
             && words.iter().all(|word| word >> 24 == 255);
-        texture.texels = words.into();
+        texture.texels = Arc::new(words);
         Ok(texture)
     }
 
@@ -146,7 +149,7 @@ impl TexelDescriptor {
         TexelData {
             format: self.format,
             levels: levels.collect(),
-            texels: [].into(),
+            texels: Arc::default(),
             is_opaque: false,
             shape: self.shape(),
         }
@@ -235,7 +238,7 @@ impl TexelDescriptor {
         let texture = TexelData {
             format: self.format,
             levels: Vec::new(),
-            texels: [].into(),
+            texels: Arc::default(),
             is_opaque: false,
             shape: self.shape(),
         };
@@ -264,14 +267,8 @@ impl TexelDescriptor {
     }
 }
 
-/// Allocates zeros; an error if memory does not hold them and the copy that becomes the texture.
-fn zeros(count: usize) -> Result<Vec<u32>, TextureError> {
+/// Allocates zeros; an error if there is not enough memory.
+pub(crate) fn zeros(count: usize) -> Result<Lines<u32>, TextureError> {
     let bytes = count as u64 * 4;
-    let mut room: Vec<u32> = Vec::new();
-    let short = TextureError::OutOfMemory { bytes };
-    if room.try_reserve_exact(count.saturating_mul(2)).is_err() {
-        return Err(short);
-    }
-    drop(std::hint::black_box(room));
-    Ok(vec![0; count])
+    Lines::zeros(count).ok_or(TextureError::OutOfMemory { bytes })
 }

@@ -1,5 +1,6 @@
 //! Buffers: immutable memory that a draw reads, for vertices, indices, uniforms and storage.
 
+use estampe_simd::advise_huge_pages;
 use std::sync::Arc;
 
 /// An immutable buffer, shared by reference. The bytes are kept as little-endian 32-bit words, so
@@ -20,6 +21,7 @@ impl BufferData {
         let count = len_bytes.div_ceil(4);
         let mut words = Vec::new();
         words.try_reserve_exact(count).ok()?;
+        advise_huge_pages(words.spare_capacity_mut());
         words.resize(count, 0);
         Some(Self {
             words: Arc::new(words),
@@ -58,6 +60,7 @@ impl BufferData {
         };
         let mut words = Vec::new();
         words.try_reserve_exact(bytes.len().div_ceil(4)).ok()?;
+        advise_huge_pages(words.spare_capacity_mut());
         words.extend(bytes.chunks(4).map(word));
         Some(Self {
             words: Arc::new(words),
@@ -147,6 +150,7 @@ impl BufferData {
 fn try_to_vec(words: &[u32]) -> Option<Vec<u32>> {
     let mut copy = Vec::new();
     copy.try_reserve_exact(words.len()).ok()?;
+    advise_huge_pages(copy.spare_capacity_mut());
     copy.extend_from_slice(words);
     Some(copy)
 }

@@ -192,8 +192,11 @@ const OUTSIDE: &[(&str, Users)] = &[
     ("image-webp", Users::Only(&["estampe-assets", "estampe"])),
     ("exr", Users::Only(&["estampe-assets", "estampe"])),
     ("gif", Users::Only(&["estampe-assets", "estampe"])),
-    // CPU time of the process; pages of machine code.
-    ("rustix", Users::Only(&["estampe-bench", "estampe-x86"])),
+    // CPU time of the process; pages of machine code; huge pages.
+    (
+        "rustix",
+        Users::Only(&["estampe-bench", "estampe-simd", "estampe-x86"]),
+    ),
     // Registers of machine code.
     ("regalloc2", Users::Only(&["estampe-x86"])),
     // A second opinion on machine code, in tests.

@@ -3,7 +3,7 @@
 use super::texels::{ColorTexels, DepthStencilTexels, ImageSize};
 use crate::depth_format::DepthFormat;
 use crate::layout::TileGrid;
-use estampe_types::TextureFormat;
+use estampe_types::{Lines, TextureFormat};
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -35,7 +35,7 @@ pub struct ColorRows {
     /// The index of the colour attachment.
     pub color: usize,
     /// Words among which the image lies. Nobody else may share them: else they are not stored to.
-    pub texels: Arc<[u32]>,
+    pub texels: Arc<Lines<u32>>,
     /// The words of the image: [`row_order_words`](super::row_order_words).
     pub range: Range<usize>,
     /// True if the image holds what the pass has drawn.
@@ -109,7 +109,7 @@ impl RenderTarget {
     /// Has passes store the texels of a colour attachment, which must have one sample, to an image
     /// in row order while they are in the cache. If a pass discards the attachment, the image holds
     /// its texels all the same, and the attachment may be left as it is.
-    pub fn store_rows(&mut self, color: usize, texels: Arc<[u32]>, range: Range<usize>) {
+    pub fn store_rows(&mut self, color: usize, texels: Arc<Lines<u32>>, range: Range<usize>) {
         debug_assert_eq!(self.size.samples, 1, "rows of one sample");
         self.rows.push(ColorRows {
             color,

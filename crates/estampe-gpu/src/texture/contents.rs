@@ -4,7 +4,7 @@ use super::blocks::Blocks;
 use super::{Texture, TextureError, TextureView, words};
 use estampe_core::{ColorTexels, Context, DepthStencilTexels, row_order_words};
 use estampe_texture::MipGeneration;
-use estampe_types::{Limits, ShadowMap, StorageTexture, TexelData, TextureFormat};
+use estampe_types::{Limits, Lines, ShadowMap, StorageTexture, TexelData, TextureFormat};
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 use std::sync::Arc;
@@ -160,7 +160,7 @@ impl Contents {
         for (&level, stored) in newest {
             let data = Arc::make_mut(self.rows.as_mut().expect("the rows were made"));
             let first = words_of(data, ImageKey { level, layer: 0 }).start;
-            let mut texels = std::mem::take(&mut data.texels);
+            let mut texels = data.take_texels();
             let rows = &mut Arc::make_mut(&mut texels)[first..][..stored.words.len()];
             words::copy(context, &mut stored.words, rows);
             data.texels = texels;
@@ -186,8 +186,8 @@ impl Contents {
         }
         self.is_written = true;
         let data = Arc::make_mut(self.rows.as_mut().expect("the rows were made"));
-        let mut texels = std::mem::take(&mut data.texels);
-        let result = write(data, Arc::make_mut(&mut texels));
+        let mut texels = data.take_texels();
+        let result = write(data, &mut Arc::make_mut(&mut texels)[..]);
         data.texels = texels;
         Ok(result)
     }
@@ -211,8 +211,8 @@ impl Contents {
         }
         let data = Arc::make_mut(self.rows.as_mut().expect("just made"));
         data.is_opaque = false;
-        let mut texels = std::mem::take(&mut data.texels);
-        let words = Arc::make_mut(&mut texels);
+        let mut texels = data.take_texels();
+        let words = &mut Arc::make_mut(&mut texels)[..];
         for (key, (image, newest)) in newer {
             let rows = &mut words[words_of(data, *key)];
             if *newest == Newest::Discarded {
@@ -283,16 +283,16 @@ impl Contents {
     /// stores the image's rows while it draws. `None` if nothing has read rows yet, so that they
     /// may never be needed, or if somebody reads them now. [`Contents::put_rows`] must be called
     /// afterwards.
-    pub(crate) fn take_rows(&mut self, key: ImageKey) -> Option<(Arc<[u32]>, Range<usize>)> {
+    pub(crate) fn take_rows(&mut self, key: ImageKey) -> Option<(Arc<Lines<u32>>, Range<usize>)> {
         let data = Arc::get_mut(self.rows.as_mut()?)?;
         let range = words_of(data, key);
         Arc::get_mut(&mut data.texels)?.get(range.clone())?;
         data.is_opaque = false;
-        Some((std::mem::take(&mut data.texels), range))
+        Some((data.take_texels(), range))
     }
 
     /// Puts the words of all rows back.
-    pub(crate) fn put_rows(&mut self, texels: Arc<[u32]>) {
+    pub(crate) fn put_rows(&mut self, texels: Arc<Lines<u32>>) {
         let data = self.rows.as_mut().and_then(Arc::get_mut);
         data.expect("nobody reads rows that were taken").texels = texels;
     }

@@ -3,7 +3,7 @@
 use super::{PlainImage, PlainTexture};
 use crate::texture::ReferenceView;
 use estampe_types::{
-    MipLevel, SamplerDescriptor, TexelData, TextureFormat, TextureShape, ViewDimension,
+    Lines, MipLevel, SamplerDescriptor, TexelData, TextureFormat, TextureShape, ViewDimension,
 };
 use std::sync::Arc;
 
@@ -18,7 +18,7 @@ pub fn texture(plain: &PlainTexture, format: TextureFormat, decode: BlockDecoder
     let mut texture = TexelData {
         format,
         levels: Vec::new(),
-        texels: [].into(),
+        texels: Arc::default(),
         is_opaque: false,
         shape: TextureShape {
             dimension: plain.dimension,
@@ -51,7 +51,7 @@ pub fn texture(plain: &PlainTexture, format: TextureFormat, decode: BlockDecoder
             }
         }
     }
-    texture.texels = words.into();
+    texture.texels = Arc::new(Lines::from(words));
     texture
 }
 

@@ -199,7 +199,7 @@ fn a_texture_put_together_by_hand_cannot_harm() {
         let texture = std::sync::Arc::new(TexelData {
             format: TextureFormat::Rgba8Unorm,
             levels,
-            texels: texels.into(),
+            texels: std::sync::Arc::new(estampe_types::Lines::from(texels)),
             is_opaque: false,
             shape: estampe_types::TextureShape::default(),
         });

@@ -371,7 +371,7 @@ fn views_of_textures_put_together_by_hand_cannot_harm() {
         let texture = TexelData {
             format: TextureFormat::ALL[round as usize % TextureFormat::ALL.len()],
             levels,
-            texels: vec![0x3F80_0000; random.bits() as usize % 50].into(),
+            texels: std::sync::Arc::new(vec![0x3F80_0000; random.bits() as usize % 50].into()),
             is_opaque: true,
             shape: estampe_texture::TextureShape {
                 dimension: dimension[random.bits() as usize % 3],

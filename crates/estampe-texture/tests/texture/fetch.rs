@@ -213,7 +213,7 @@ fn view_of(
         .texels
         .iter()
         .map(|_| (random.bits() << 8) ^ random.bits());
-    texture.texels = words.collect();
+    texture.texels = std::sync::Arc::new(words.collect::<Vec<u32>>().into());
     let base_array_layer = u32::from(matches!(
         dimension,
         V::D2 | V::D2Array | V::Cube | V::CubeArray

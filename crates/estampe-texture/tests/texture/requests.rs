@@ -144,7 +144,7 @@ fn textured(format: TextureFormat, sampler: SamplerDescriptor) -> SampledTexture
         .texels
         .iter()
         .map(|_| ((random.bits() << 8) ^ random.bits()) & of_format);
-    texture.texels = words.collect();
+    texture.texels = std::sync::Arc::new(words.collect::<Vec<u32>>().into());
     let view = TexelViewDescriptor {
         dimension: Some(ViewDimension::D2),
         base_array_layer: 1,
@@ -369,7 +369,7 @@ fn neighbouring_texels_are_sampled_as_lanes_alone() {
             .texels
             .iter()
             .map(|_| (random.bits() << 8) ^ random.bits());
-        image.texels = words.collect();
+        image.texels = std::sync::Arc::new(words.collect::<Vec<u32>>().into());
         let texture = SampledTexture::new(TexelView::of(image).unwrap(), sampler).unwrap();
         for level in Level::all_available() {
             let texture = texture.clone().at_level(level);

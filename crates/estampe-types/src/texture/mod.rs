@@ -13,7 +13,7 @@ pub use view::{TexelViewDescriptor, TextureAspect, ViewDimension};
 use crate::format::TextureFormat;
 use crate::morton::spread;
 use crate::{Lines, depth_minmax};
-use std::sync::Arc;
+use std::sync::{Arc, LazyLock};
 
 /// A texture with its mip levels; immutable and shared by reference.
 ///
@@ -31,13 +31,21 @@ pub struct TexelData {
     pub levels: Vec<MipLevel>,
     /// The texels of all levels. Formats with four 8-bit channels have R in the low byte of each
     /// word.
-    pub texels: Arc<[u32]>,
+    pub texels: Arc<Lines<u32>>,
     /// True if alpha is 255 in every texel, so that samplers may skip it; `false` is always
     /// correct.
     pub is_opaque: bool,
     /// Dimension, depth or layers, and samples. The default is one 2D image with one sample per
     /// texel.
     pub shape: TextureShape,
+}
+
+impl TexelData {
+    /// Takes the texels out and leaves none, which allocates no memory.
+    pub fn take_texels(&mut self) -> Arc<Lines<u32>> {
+        static NONE: LazyLock<Arc<Lines<u32>>> = LazyLock::new(Arc::default);
+        std::mem::replace(&mut self.texels, Arc::clone(&NONE))
+    }
 }
 
 /// One level of a texture.

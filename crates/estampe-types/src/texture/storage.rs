@@ -2,6 +2,7 @@
 
 use super::{TextureDimension, TextureShape};
 use crate::format::TextureFormat;
+use estampe_simd::advise_huge_pages;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU32, Ordering};
 
@@ -45,6 +46,7 @@ impl StorageTexture {
         let count = texels.checked_mul(made.words_per_texel())?;
         let mut words = Vec::new();
         words.try_reserve_exact(count).ok()?;
+        advise_huge_pages(words.spare_capacity_mut());
         words.resize_with(count, AtomicU32::default);
         made.words = Arc::new(words);
         Some(made)

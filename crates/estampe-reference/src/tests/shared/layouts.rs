@@ -86,7 +86,7 @@ fn textures_are_stored_as_their_documentation_says() {
     let texture = |format| TexelData {
         format,
         levels: Vec::new(),
-        texels: Arc::new([]),
+        texels: Arc::default(),
         is_opaque: false,
         shape: TextureShape::default(),
     };

@@ -23,13 +23,13 @@ fn texture(
         offset += width * height;
         level
     });
+    let words = reds
+        .iter()
+        .map(|&red| u32::from_le_bytes([red, 255 - red, 0, 51]));
     let texture = TexelData {
         format,
         levels: levels.collect(),
-        texels: reds
-            .iter()
-            .map(|&red| u32::from_le_bytes([red, 255 - red, 0, 51]))
-            .collect(),
+        texels: Arc::new(words.collect::<Vec<u32>>().into()),
         is_opaque: false,
         shape: estampe_types::TextureShape::default(),
     };

@@ -48,7 +48,7 @@ fn view(
             depth_or_layers: slices,
             samples: 1,
         },
-        texels: texels.into(),
+        texels: std::sync::Arc::new(texels.into()),
         is_opaque: false,
         levels: levels.clone(),
     };
