@@ -49,6 +49,15 @@ impl<S: Lanes> Columns<S> {
     }
 }
 
+impl<S: Lanes> Columns<S> {
+    /// True if all left texels, and those after them, are the window's first four.
+    #[inline(always)]
+    pub fn are_among_four(&self) -> bool {
+        let [a, b, c, d] = self.texels;
+        a.max(b).max(c.max(d)) < Self::WINDOW / 2 - 1
+    }
+}
+
 /// The lanes of the first row of a block, from left to right, and of its first column, from above.
 pub(crate) const COLUMNS_AND_ROWS: [usize; 8] = [0, 1, 4, 5, 0, 2, 8, 10];
 
@@ -150,25 +159,6 @@ mod x86 {
     const SPREAD: [u32; 16] = [0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3];
 
     #[inline(always)]
-    pub(crate) fn spread_rows_avx512(simd: Avx512, value: f32x16<Avx512>) -> [f32x16<Avx512>; 4] {
-        fearless_simd::kernel!(
-            #[inline(always)]
-            fn kernel(simd: Avx512, value: f32x16<Avx512>) -> [f32x16<Avx512>; 4] {
-                use core::arch::x86_64::*;
-                // One permutation across 128 bits, and four within.
-                let rows = _mm512_shuffle_f32x4::<0b01_01_01_01>(value.into(), value.into());
-                [
-                    _mm512_permute_ps::<0b00_00_00_00>(rows).simd_into(simd),
-                    _mm512_permute_ps::<0b01_01_01_01>(rows).simd_into(simd),
-                    _mm512_permute_ps::<0b10_10_10_10>(rows).simd_into(simd),
-                    _mm512_permute_ps::<0b11_11_11_11>(rows).simd_into(simd),
-                ]
-            }
-        );
-        kernel(simd, value)
-    }
-
-    #[inline(always)]
     pub(crate) fn columns_and_rows_avx512(
         simd: Avx512,
         columns: f32x16<Avx512>,
@@ -177,24 +167,6 @@ mod x86 {
         // Lanes of `rows` are numbered from 16 on.
         let order = [0, 1, 4, 5, 16, 18, 24, 26, 0, 1, 4, 5, 16, 18, 24, 26];
         choose_512(simd, columns, order_512(simd, order), rows)
-    }
-
-    #[inline(always)]
-    pub(crate) fn columns_and_three_rows_avx512(
-        simd: Avx512,
-        columns: f32x16<Avx512>,
-        [a, b, c]: [f32x16<Avx512>; 3],
-    ) -> f32x16<Avx512> {
-        fearless_simd::kernel!(
-            #[inline(always)]
-            fn combine(simd: Avx512, low: f32x16<Avx512>, high: f32x16<Avx512>) -> f32x16<Avx512> {
-                use core::arch::x86_64::*;
-                _mm512_mask_blend_ps(0xFF00, low.into(), high.into()).simd_into(simd)
-            }
-        );
-        let order = [0, 2, 8, 10, 16, 18, 24, 26, 0, 2, 8, 10, 16, 18, 24, 26];
-        let high = choose_512(simd, b, order_512(simd, order), c);
-        combine(simd, columns_and_rows_avx512(simd, columns, a), high)
     }
 
     #[inline(always)]
@@ -239,6 +211,21 @@ mod x86 {
         [
             choose_512(simd, low, left, high),
             choose_512(simd, low, right, high),
+        ]
+    }
+
+    #[inline(always)]
+    pub(crate) fn halves_of_four_avx512(
+        simd: Avx512,
+        window: &[u32; 8],
+        columns: &Columns<Avx512>,
+    ) -> [f32x16<Avx512>; 2] {
+        let texels = row_avx512(simd, window);
+        let left = columns.places;
+        let right = left + u32x16::splat(simd, 4);
+        [
+            permute_512(simd, texels, left),
+            permute_512(simd, texels, right),
         ]
     }
 
@@ -337,30 +324,6 @@ mod x86 {
         both.combine(both)
     }
 
-    #[inline(always)]
-    pub(crate) fn columns_and_three_rows_avx2(
-        simd: Avx2,
-        columns: f32x16<Avx2>,
-        [a, b, c]: [f32x16<Avx2>; 3],
-    ) -> f32x16<Avx2> {
-        fearless_simd::kernel!(
-            #[inline(always)]
-            fn two_rows(
-                simd: Avx2,
-                first: [f32x8<Avx2>; 2],
-                second: [f32x8<Avx2>; 2],
-            ) -> f32x8<Avx2> {
-                use core::arch::x86_64::*;
-                let first = _mm256_shuffle_ps::<0b10_00_10_00>(first[0].into(), first[1].into());
-                let second = _mm256_shuffle_ps::<0b10_00_10_00>(second[0].into(), second[1].into());
-                _mm256_permute2f128_ps::<0x20>(first, second).simd_into(simd)
-            }
-        );
-        let ((columns, _), a, b, c) = (columns.split(), a.split(), b.split(), c.split());
-        let low = columns_and_row_256(simd, columns, a.0, a.1);
-        low.combine(two_rows(simd, [b.0, b.1], [c.0, c.1]))
-    }
-
     fearless_simd::kernel!(
         #[inline(always)]
         fn decode(simd: Avx2, words: u32x4<Avx2>) -> f32x8<Avx2> {
@@ -378,9 +341,9 @@ mod x86 {
     }
 
     #[inline(always)]
-    pub(crate) fn halves_avx2(
+    pub(crate) fn halves_avx2<const WORDS: usize>(
         simd: Avx2,
-        window: &[u32; 16],
+        window: &[u32; WORDS],
         columns: &Columns<Avx2>,
     ) -> [f32x16<Avx2>; 2] {
         fearless_simd::kernel!(
@@ -397,8 +360,8 @@ mod x86 {
         let mut pairs = [f32x8::splat(simd, 0.0); 4];
         let mut column = 0;
         while column < 4 {
-            // Texels are of two words, and numbers below 7: the pair is in the window.
-            let at = 2 * columns.texels[column].min(6);
+            // Texels are of two words, and each is before the window's last: the pair is in it.
+            let at = 2 * columns.texels[column].min(WORDS / 2 - 2);
             let words = [window[at], window[at + 1], window[at + 2], window[at + 3]];
             pairs[column] = decode(simd, u32x4::load_array(simd, words));
             column += 1;

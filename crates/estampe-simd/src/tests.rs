@@ -519,7 +519,7 @@ fn a_packet_is_uniform_if_no_lane_differs() {
 
 /// Four rows of four texels, by channel and lane.
 #[inline(always)]
-fn of_block<S: Lanes>(s: S, rows: &[[f32; LANES]; 4]) -> [[f32; LANES]; 13] {
+fn of_block<S: Lanes>(s: S, rows: &[[f32; LANES]; 4]) -> [[f32; LANES]; 8] {
     let [a, b, c, d] = [
         f32x16::load_array_ref(s, &rows[0]),
         f32x16::load_array_ref(s, &rows[1]),
@@ -527,12 +527,7 @@ fn of_block<S: Lanes>(s: S, rows: &[[f32; LANES]; 4]) -> [[f32; LANES]; 13] {
         f32x16::load_array_ref(s, &rows[3]),
     ];
     let [r, g, blue, alpha] = s.channels_of_rows([a, b, c, d]);
-    let [first, second, third, fourth] = s.spread_rows(a);
     [
-        first.to_array(),
-        second.to_array(),
-        third.to_array(),
-        fourth.to_array(),
         r.to_array(),
         g.to_array(),
         blue.to_array(),
@@ -541,7 +536,6 @@ fn of_block<S: Lanes>(s: S, rows: &[[f32; LANES]; 4]) -> [[f32; LANES]; 13] {
         s.first_column(a).to_array(),
         s.spread_columns(a).to_array(),
         s.columns_and_rows(a, b).to_array(),
-        s.columns_and_three_rows(a, [b, c, d]).to_array(),
     ]
 }
 
@@ -556,10 +550,7 @@ fn blocks_have_columns_rows_and_channels() {
     };
     for level in Level::all_available() {
         let of_level = dispatch!(level, s => of_block(s, &rows));
-        let [a, b, c, d, channels @ .., row, column, spread, both, four] = of_level;
-        for (at, of_row) in (4..).zip([a, b, c, d]) {
-            assert_eq!(of_row, [rows[0][at]; LANES], "{level:?} lane {at}");
-        }
+        let [channels @ .., row, column, spread, both] = of_level;
         for lane in 0..LANES {
             let (x, y) = (usize::from(LANE_X[lane]), usize::from(LANE_Y[lane]));
             for (channel, of_channel) in channels.iter().enumerate() {
@@ -574,11 +565,6 @@ fn blocks_have_columns_rows_and_channels() {
                 row => rows[1][lane_of(0, row - 4)],
             };
             assert_eq!(both[lane], expected, "{level:?}");
-            let expected = match lane {
-                column @ 0..4 => rows[0][lane_of(column, 0)],
-                row => rows[row / 4][lane_of(0, row % 4)],
-            };
-            assert_eq!(four[lane], expected, "{level:?}");
         }
     }
 }
@@ -593,7 +579,12 @@ fn of_window<S: Lanes>(
 ) -> Option<[[f32; LANES]; 2]> {
     let columns = Columns::new(s, i32x16::load_array(s, texels), first)?;
     let [left, right] = s.half_texels(window, &columns)?;
-    Some([left.to_array(), right.to_array()])
+    let all = [left.to_array(), right.to_array()];
+    if columns.are_among_four() {
+        let [left, right] = s.half_texels_of_four(window.first_chunk()?, &columns)?;
+        assert_eq!([left.to_array(), right.to_array()], all);
+    }
+    Some(all)
 }
 
 #[test]
@@ -612,6 +603,7 @@ fn windows_of_half_floats_are_read_by_columns() {
             [0, 1, 2, 3],
             [6, 5, 3, 0],
             [2, 2, 2, 2],
+            [0, 0, 1, 2],
             [0, 2, 4, 6],
             [0, 1, 2, 7],
         ] {
@@ -619,6 +611,12 @@ fn windows_of_half_floats_are_read_by_columns() {
             for (texel, column) in texels.iter_mut().zip(columns) {
                 *texel = 40 + column;
             }
+            let are_among_four: Option<bool> = dispatch!(level, s => {
+                let columns = Columns::new(s, i32x16::load_array(s, texels), 40);
+                columns.map(|columns| columns.are_among_four())
+            });
+            let expected = (columns[3] < 7).then(|| columns.iter().all(|&column| column < 3));
+            assert_eq!(are_among_four, expected, "{level:?} {columns:?}");
             let got = dispatch!(level, s => of_window(s, &window, texels, 40));
             let has_halves = matches!(level.name(), "avx2" | "avx512");
             assert_eq!(got.is_some(), has_halves && columns[3] < 7, "{level:?}");

@@ -22,6 +22,40 @@ pub struct PacketPlaces<'a> {
 }
 
 impl<'a> PacketPlaces<'a> {
+    /// A list of coordinates (u, v).
+    #[inline(always)]
+    pub(crate) fn of_pairs(at: &'a [[Packet<f32>; 2]]) -> Self {
+        Self {
+            scalars: at.as_flattened(),
+            stride: 2,
+            at: [0, 1],
+            gradients: None,
+        }
+    }
+
+    /// The same in parts of so many packets, and fewer at the end.
+    pub(crate) fn chunks(&self, packets: usize) -> impl Iterator<Item = Self> + use<'a> {
+        let places = *self;
+        let scalars = self.scalars.chunks(packets * self.stride.max(1));
+        scalars.map(move |scalars| Self { scalars, ..places })
+    }
+
+    /// The coordinates of each packet.
+    #[inline(always)]
+    pub(crate) fn each(&self) -> impl Iterator<Item = [&'a Packet<f32>; 2]> + use<'a> {
+        let [u, v] = self.at;
+        self.packets().map(
+            #[inline(always)]
+            move |scalars| [&scalars[u], &scalars[v]],
+        )
+    }
+
+    /// The coordinate u of a packet.
+    #[inline(always)]
+    pub(crate) fn u_of(&self, packet: usize) -> Option<&'a Packet<f32>> {
+        self.scalars.get(packet * self.stride + self.at[0])
+    }
+
     /// The scalars of each packet.
     #[inline(always)]
     fn packets(&self) -> std::slice::ChunksExact<'a, Packet<f32>> {

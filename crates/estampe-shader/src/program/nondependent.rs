@@ -211,11 +211,18 @@ impl Group {
             *to = textures.sampled(*texture, *sampler);
         }
         let sampled = &sampled[..each.min(MOST)];
-        if let (Some(places), Some(first)) = (self.place.flat(scalars, stride), sampled[0]) {
+        if let (Some((places, lod)), Some(first)) = (self.place.flat(scalars, stride), sampled[0]) {
             let mut all = [first; MOST];
             let mut known = all.iter_mut().zip(sampled);
             let are_known = known.all(|(to, one)| one.map(|one| *to = one).is_some());
-            if are_known && SampledTexture::sample_places(&all[..each], &places, texels) {
+            let is_common = are_known
+                && lod != PacketLod::Level
+                && SampledTexture::sample_places(&all[..each], &places, texels);
+            if is_common {
+                return;
+            }
+            if each == 1 && lod != PacketLod::Gradients && first.sample_batch(lod, &places, texels)
+            {
                 return;
             }
         }
@@ -243,26 +250,31 @@ impl Group {
 }
 
 impl Place {
-    /// Two coordinates with the level of detail of derivatives or of quads, if the place is such.
-    fn flat<'a>(&self, scalars: &'a [Packet<f32>], stride: usize) -> Option<PacketPlaces<'a>> {
+    /// Two coordinates, and where the level of detail comes from, if the place is no more.
+    fn flat<'a>(
+        &self,
+        scalars: &'a [Packet<f32>],
+        stride: usize,
+    ) -> Option<(PacketPlaces<'a>, PacketLod)> {
         let &[u, v] = &self.coordinates[..] else {
             return None;
         };
-        let gradients = match &self.level {
-            Level::Zero => return None,
-            Level::Implicit => None,
+        let (gradients, lod) = match &self.level {
+            Level::Zero => (None, PacketLod::Level),
+            Level::Implicit => (None, PacketLod::Implicit),
             Level::Gradients([x, y]) => match (&x[..], &y[..]) {
-                (&[ux, vx], &[uy, vy]) => Some([ux, vx, uy, vy]),
+                (&[ux, vx], &[uy, vy]) => (Some([ux, vx, uy, vy]), PacketLod::Gradients),
                 _ => return None,
             },
         };
         let is_plain = self.layer.is_none() && self.offset == [0; 3];
-        is_plain.then_some(PacketPlaces {
+        let places = PacketPlaces {
             scalars,
             stride,
             at: [u, v],
             gradients,
-        })
+        };
+        is_plain.then_some((places, lod))
     }
 
     /// Sets what a packet with these scalars asks for, in a request of zeros.

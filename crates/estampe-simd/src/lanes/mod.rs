@@ -214,46 +214,11 @@ pub trait Lanes: Simd {
         f32x16::load_array(self, both)
     }
 
-    /// Of a packet that is a block the values of its columns in lanes 0 to 3, and of three others
-    /// the values of their rows in the lanes after them, four for each.
-    #[inline(always)]
-    fn columns_and_three_rows(
-        self,
-        columns: f32x16<Self>,
-        rows: [f32x16<Self>; 3],
-    ) -> f32x16<Self> {
-        let of_columns = columns.to_array();
-        let of_rows = [rows[0].to_array(), rows[1].to_array(), rows[2].to_array()];
-        let mut all = of_columns;
-        let mut lane = 0;
-        while lane < 16 {
-            let at = crate::block::COLUMNS_AND_ROWS[if lane < 4 { lane } else { 4 + lane % 4 }];
-            all[lane] = match lane / 4 {
-                0 => of_columns[at],
-                row => of_rows[row - 1][at],
-            };
-            lane += 1;
-        }
-        f32x16::load_array(self, all)
-    }
-
     /// The values of lanes 0 to 3, each four times.
     #[inline(always)]
     fn spread_columns(self, value: f32x16<Self>) -> f32x16<Self> {
         let order = [0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3];
         crate::block::permuted(self, value, order)
-    }
-
-    /// The values of lanes 4 to 7, each in all lanes.
-    #[inline(always)]
-    fn spread_rows(self, value: f32x16<Self>) -> [f32x16<Self>; 4] {
-        let of = value.to_array();
-        [
-            f32x16::splat(self, of[4]),
-            f32x16::splat(self, of[5]),
-            f32x16::splat(self, of[6]),
-            f32x16::splat(self, of[7]),
-        ]
     }
 
     /// What [`half_texels`](Self::half_texels) needs of the texels of columns in lanes 0 to 3, at
@@ -268,6 +233,18 @@ pub trait Lanes: Simd {
     /// half floats; `None` if the level does not decode half floats.
     #[inline(always)]
     fn half_texels(self, window: &[u32; 16], columns: &Columns<Self>) -> Option<[f32x16<Self>; 2]> {
+        let _ = (window, columns);
+        None
+    }
+
+    /// [`half_texels`](Self::half_texels) of columns that are
+    /// [among four](Columns::are_among_four) texels.
+    #[inline(always)]
+    fn half_texels_of_four(
+        self,
+        window: &[u32; 8],
+        columns: &Columns<Self>,
+    ) -> Option<[f32x16<Self>; 2]> {
         let _ = (window, columns);
         None
     }

@@ -109,19 +109,19 @@ impl Lanes for Avx2 {
         crate::block::columns_and_rows_avx2(self, columns, rows)
     }
     #[inline(always)]
-    fn columns_and_three_rows(
-        self,
-        columns: f32x16<Self>,
-        rows: [f32x16<Self>; 3],
-    ) -> f32x16<Self> {
-        crate::block::columns_and_three_rows_avx2(self, columns, rows)
-    }
-    #[inline(always)]
     fn spread_columns(self, value: f32x16<Self>) -> f32x16<Self> {
         crate::block::spread_avx2(self, value)
     }
     #[inline(always)]
     fn half_texels(self, window: &[u32; 16], columns: &Columns<Self>) -> Option<[f32x16<Self>; 2]> {
+        Some(crate::block::halves_avx2(self, window, columns))
+    }
+    #[inline(always)]
+    fn half_texels_of_four(
+        self,
+        window: &[u32; 8],
+        columns: &Columns<Self>,
+    ) -> Option<[f32x16<Self>; 2]> {
         Some(crate::block::halves_avx2(self, window, columns))
     }
     #[inline(always)]
@@ -198,20 +198,8 @@ impl Lanes for Avx512 {
         crate::block::columns_and_rows_avx512(self, columns, rows)
     }
     #[inline(always)]
-    fn columns_and_three_rows(
-        self,
-        columns: f32x16<Self>,
-        rows: [f32x16<Self>; 3],
-    ) -> f32x16<Self> {
-        crate::block::columns_and_three_rows_avx512(self, columns, rows)
-    }
-    #[inline(always)]
     fn spread_columns(self, value: f32x16<Self>) -> f32x16<Self> {
         crate::block::spread_avx512(self, value)
-    }
-    #[inline(always)]
-    fn spread_rows(self, value: f32x16<Self>) -> [f32x16<Self>; 4] {
-        crate::block::spread_rows_avx512(self, value)
     }
     #[inline(always)]
     fn places_of_texels(self, texel: u32x16<Self>) -> u32x16<Self> {
@@ -220,6 +208,14 @@ impl Lanes for Avx512 {
     #[inline(always)]
     fn half_texels(self, window: &[u32; 16], columns: &Columns<Self>) -> Option<[f32x16<Self>; 2]> {
         Some(crate::block::halves_avx512(self, window, columns))
+    }
+    #[inline(always)]
+    fn half_texels_of_four(
+        self,
+        window: &[u32; 8],
+        columns: &Columns<Self>,
+    ) -> Option<[f32x16<Self>; 2]> {
+        Some(crate::block::halves_of_four_avx512(self, window, columns))
     }
     #[inline(always)]
     fn row_of_halves(self, words: &[u32; 8]) -> Option<f32x16<Self>> {

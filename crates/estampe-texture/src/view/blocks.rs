@@ -39,7 +39,7 @@ impl TexelView {
             let Some(at) = first_of_block(s, [x, y], of_first) else {
                 return false;
             };
-            let ahead = two_blocks_ahead([x.0[0], y.0[0]]);
+            let ahead = blocks_ahead([x.0[0], y.0[0]], AHEAD);
             for (view, texels) in views.iter().zip(texels) {
                 let plane = &view.planes[mips.0[0].cast_unsigned() as usize];
                 let Some([r, g, b, a]) = view.block_at(s, plane, at) else {
@@ -67,7 +67,7 @@ impl TexelView {
     /// Prefetches a block at a place and the one to the right of it, as far as they are in the
     /// texture.
     #[inline(always)]
-    fn prefetch_blocks<S: SimdLanes>(&self, s: S, plane: &Plane, [x, y]: [i32; 2]) {
+    pub(super) fn prefetch_blocks<S: SimdLanes>(&self, s: S, plane: &Plane, [x, y]: [i32; 2]) {
         let words = self.packets.map_or(1, |format| format.words);
         let row = words.wrapping_mul(plane.sides[0]);
         let slice = self.base_layer.cast_signed().wrapping_mul(plane.sides[1]);
@@ -141,18 +141,18 @@ fn first_of_block<S: SimdLanes>(
     (is_inside && s.bits_of_mask(is_block) == u16::MAX).then(|| top * width + left)
 }
 
-/// For a block in an even column, where the block begins that comes four later in the order in
+/// For a block in an even column, where the block begins that comes so many later in the order in
 /// which passes shade: tiles of 64×64 pixels from left to right, and in a tile Morton order.
 ///
 /// What pass after pass reads is in no cache near the processor, as images are large, and rows of a
 /// tile are too short for the processor to foresee.
 #[inline(always)]
-fn two_blocks_ahead([x, y]: [i32; 2]) -> Option<[i32; 2]> {
+pub(super) fn blocks_ahead([x, y]: [i32; 2], count: u32) -> Option<[i32; 2]> {
     let [column, row] = [x / SIDE, y / SIDE].map(i32::cast_unsigned);
     if column & 1 != 0 {
         return None;
     }
-    let ahead = (spread(column % TILE) | spread(row % TILE) << 1) + 4;
+    let ahead = (spread(column % TILE) | spread(row % TILE) << 1) + count;
     // After a tile's last blocks come the first of the tile to the right.
     let (tile, in_tile) = (column / TILE + ahead / BLOCKS, ahead % BLOCKS);
     let blocks = [
@@ -201,6 +201,9 @@ pub(super) fn rows_of_halves<S: SimdLanes>(
 /// The columns and rows of a block.
 const SIDE: i32 = 4;
 
+/// How many blocks before it is fetched a block is prefetched.
+const AHEAD: u32 = 4;
+
 /// The blocks of a row of a tile.
 const TILE: u32 = 16;
 /// The blocks of a tile.
@@ -225,7 +228,7 @@ const PLACES: [u32; LANES] = {
 mod tests {
     use super::*;
 
-    /// The block four later in Morton order, tile after tile.
+    /// The blocks that come later in Morton order, tile after tile.
     #[test]
     fn the_next_blocks_are_those_that_passes_shade_next() {
         let order: Vec<[i32; 2]> = (0..2)
@@ -234,11 +237,14 @@ mod tests {
             })
             .map(|blocks| blocks.map(|block| block.cast_signed() * SIDE))
             .collect();
-        for (at, &[x, y]) in order.iter().enumerate().take(order.len() - 4) {
-            let expected = (at % 2 == 0).then(|| order[at + 4]);
-            assert_eq!(two_blocks_ahead([x, y]), expected, "{x} {y}");
-            let below = expected.map(|[x, y]| [x, y + 64]);
-            assert_eq!(two_blocks_ahead([x, y + 64]), below, "{x} {y}");
+        for count in [4_u32, 16] {
+            let later = order.iter().skip(count as usize);
+            for (at, (&[x, y], &later)) in order.iter().zip(later).enumerate() {
+                let expected = (at % 2 == 0).then_some(later);
+                assert_eq!(blocks_ahead([x, y], count), expected, "{x} {y}");
+                let below = expected.map(|[x, y]| [x, y + 64]);
+                assert_eq!(blocks_ahead([x, y + 64], count), below, "{x} {y}");
+            }
         }
     }
 }

@@ -6,9 +6,9 @@
 use super::SampledTexture;
 use super::coordinates::{Answers as Colors, Coordinates, Lod, packet};
 use super::packet::MOST_TAPS;
-use crate::Rgba8Texture;
 use crate::compare::compare_packets;
 use crate::request::{Request, RequestDetail};
+use crate::{PacketPlaces, Rgba8Texture};
 use estampe_simd::{LANES, Packet};
 use estampe_types::{Int, Real};
 
@@ -293,16 +293,43 @@ impl SampledTexture {
         }
     }
 
-    /// The colours at several coordinates (u, v), as [`sample_request`](Self::sample_request) gives
-    /// them for each, in level 0 for [`PacketLod::Level`].
+    /// The colours at several coordinates (u, v) of the same fragments, as
+    /// [`sample_request`](Self::sample_request) gives them for each, in level 0 for
+    /// [`PacketLod::Level`].
     pub fn sample_each(&self, lod: PacketLod, at: &[[Packet<f32>; 2]], colors: &mut [Colors]) {
-        let taps = at.chunks(MOST_TAPS).zip(colors.chunks_mut(MOST_TAPS));
-        for (at, colors) in taps {
-            let mut others = self.sample_blocks(lod, at, colors);
+        self.sample_by_blocks::<true>(lod, &PacketPlaces::of_pairs(at), colors);
+    }
+
+    /// The same at one place in each packet of a batch, whose
+    /// [gradients](PacketPlaces::gradients) do not count. False, with nothing stored, if the
+    /// texture is not of half floats, or another level than the finest may count.
+    #[must_use]
+    pub fn sample_batch(
+        &self,
+        lod: PacketLod,
+        places: &PacketPlaces<'_>,
+        colors: &mut [Colors],
+    ) -> bool {
+        let may_have_blocks = self.may_have_blocks(lod);
+        if may_have_blocks {
+            self.sample_by_blocks::<false>(lod, places, colors);
+        }
+        may_have_blocks
+    }
+
+    fn sample_by_blocks<const TAPS: bool>(
+        &self,
+        lod: PacketLod,
+        places: &PacketPlaces<'_>,
+        colors: &mut [Colors],
+    ) {
+        for (places, colors) in places.chunks(MOST_TAPS).zip(colors.chunks_mut(MOST_TAPS)) {
+            let mut others = self.sample_blocks::<TAPS>(lod, &places, colors);
             while others != 0 {
-                let tap = others.trailing_zeros() as usize;
+                let at = others.trailing_zeros() as usize;
                 others &= others - 1;
-                let (Some([u, v]), Some(colors)) = (at.get(tap), colors.get_mut(tap)) else {
+                let (Some([u, v]), Some(colors)) = (places.each().nth(at), colors.get_mut(at))
+                else {
                     break;
                 };
                 let request = PacketRequest {

@@ -3,9 +3,9 @@
 use super::{Random, noise};
 use estampe_simd::{LANE_X, LANE_Y, LANES, Level, Packet};
 use estampe_texture::{
-    AddressMode, FilterMode, Limits, MipGeneration, PacketLod, PacketPlace, PacketRequest,
-    SampledTexture, SamplerDescriptor, ShadowMap, TexelDescriptor, TexelView, TexelViewDescriptor,
-    TextureDimension, TextureFormat, ViewDimension, compare_packets,
+    AddressMode, FilterMode, Limits, MipGeneration, PacketLod, PacketPlace, PacketPlaces,
+    PacketRequest, SampledTexture, SamplerDescriptor, ShadowMap, TexelDescriptor, TexelView,
+    TexelViewDescriptor, TextureDimension, TextureFormat, ViewDimension, compare_packets,
 };
 
 type Colors = [Packet<f32>; 4];
@@ -283,6 +283,60 @@ fn a_texture_at_several_places_is_sampled_as_at_each() {
             }
         }
     }
+}
+
+/// One place in each packet of a batch, whose scalars lie in any order: more packets than are
+/// sampled together, at each scale and at borders.
+#[test]
+fn batches_of_half_floats_are_sampled_as_each_packet() {
+    let random = &mut Random::new(52);
+    let clamped = SamplerDescriptor {
+        address_mode_u: AddressMode::ClampToEdge,
+        address_mode_v: AddressMode::ClampToEdge,
+        ..SamplerDescriptor::trilinear_repeat()
+    };
+    let [mut blocks, mut all] = [0; 2];
+    for sampler in [clamped, SamplerDescriptor::trilinear_repeat()] {
+        let halves = textured(TextureFormat::Rgba16Float, sampler);
+        let bytes = textured(TextureFormat::Rgba8Unorm, sampler);
+        for level in Level::all_available() {
+            let texture = halves.clone().at_level(level);
+            for scale in [1.0, 2.0, 0.5, -1.0, 3.0] {
+                let packets: Vec<[Packet<f32>; 3]> = (0..21)
+                    .map(|_| {
+                        let at = [random.unit() * 1.2 - 0.1, random.unit() * 1.2 - 0.1];
+                        let [u, v] = packets(at, scale / 64.0);
+                        [v, Packet([7.0; LANES]), u]
+                    })
+                    .collect();
+                let places = PacketPlaces {
+                    scalars: packets.as_flattened(),
+                    stride: 3,
+                    at: [2, 0],
+                    gradients: None,
+                };
+                let mut together = vec![Colors::default(); packets.len()];
+                assert!(texture.sample_batch(PacketLod::Level, &places, &mut together));
+                for ([v, _, u], together) in packets.iter().zip(&together) {
+                    let request = PacketRequest {
+                        at: [u, v, PacketRequest::ZEROS.at[2]],
+                        lod: PacketLod::Level,
+                        ..PacketRequest::ZEROS
+                    };
+                    let mut alone = Colors::default();
+                    texture.sample_request(&request, &mut alone);
+                    assert_eq!(bits(together), bits(&alone), "{level:?} {scale}");
+                    blocks += u32::from(texture.samples_a_block(&request));
+                    all += 1;
+                }
+                // Other formats and levels of detail are left to requests.
+                let bytes = bytes.clone().at_level(level);
+                assert!(!bytes.sample_batch(PacketLod::Level, &places, &mut together));
+                assert!(!texture.sample_batch(PacketLod::Implicit, &places, &mut together));
+            }
+        }
+    }
+    assert!(blocks > all / 8 && blocks < all, "{blocks} of {all}");
 }
 
 /// Filters whose taps stand in columns: at each scale, in every address mode, inside and at

@@ -11,26 +11,30 @@
 //! and the right ones too: each is a load that converts, without a permutation.
 
 use super::Packet;
-use crate::view::coordinates::load;
+use crate::PacketPlaces;
+use crate::view::coordinates::{Answers, packet};
 use crate::view::plane::Plane;
 use crate::view::{PacketLod, PacketRequest, SampledTexture};
 use crate::wrap::{Place, place_by_lane, wrap};
 use estampe_simd::{
-    Bytes, Columns, Lanes as SimdLanes, SimdBase, dispatch, f32x16, i32x16, mask32x16, u32x16,
+    Bytes, Columns, Lanes as SimdLanes, Packet as Values, SimdBase, dispatch, f32x16, i32x16,
+    mask32x16, u32x16, words_of,
 };
 use estampe_types::{AddressMode, Real, ViewDimension};
 
 /// The words of a texel.
-pub(super) const WORDS: usize = 2;
+const WORDS: usize = 2;
 
 /// The most rows of texels of a block.
 const MOST_LINES: usize = 9;
 
 /// The words of a row of five texels.
-pub(super) const NEIGHBOURS: usize = 5 * WORDS;
+const NEIGHBOURS: usize = 5 * WORDS;
 
-/// The lanes that hold the places of columns, then of rows.
-const PLACES: u16 = 0xFF;
+/// Which of a block's colours holds the [footprint](Footprint)'s fractions until it is sampled, and
+/// which the bits of its texels.
+const FRACTIONS: usize = 0;
+const TEXELS: usize = 1;
 
 impl SampledTexture {
     /// Returns true if the finest level is sampled as a block; tests see by it which way a request
@@ -39,7 +43,8 @@ impl SampledTexture {
     #[must_use]
     pub fn samples_a_block(&self, request: &PacketRequest<'_>) -> bool {
         let at = [[*request.at[0], *request.at[1]]];
-        self.sample_blocks(PacketLod::Level, &at, &mut [Default::default()]) == 0
+        let places = PacketPlaces::of_pairs(&at);
+        self.sample_blocks::<false>(PacketLod::Level, &places, &mut [Default::default()]) == 0
     }
 
     /// Returns true if the texels of a block are neighbours in the finest level.
@@ -48,10 +53,12 @@ impl SampledTexture {
     pub fn samples_neighbours(&self, request: &PacketRequest<'_>) -> bool {
         dispatch!(@specialized_move self.level, s => {
             let [u, v, _] = request.at;
-            let uv = [f32x16::load_array_ref(s, &u.0), f32x16::load_array_ref(s, &v.0)];
-            let level = BlockLevel::new(s, self, &self.view.planes[0]);
-            let footprint = level.and_then(|level| level.footprint::<false>(s, uv));
-            footprint.is_some_and(|footprint| footprint.are_neighbours)
+            let Some(level) = BlockLevel::new(s, self, &self.view.planes[0]) else {
+                return false;
+            };
+            let mut colors = Answers::default();
+            level.find::<false>(s, [u, v], &mut colors)
+                && Footprint::of(&colors).are_neighbours(s)
         }, others => false)
     }
 }
@@ -67,10 +74,8 @@ impl Packet<'_> {
         let planes = &self.of.view.planes;
         let last = planes.len() - 1;
         let zero: f32x16<S> = SimdBase::splat(s, 0.0);
-        let uv = [
-            load(zero, self.lanes.at[0], 0),
-            load(zero, self.lanes.at[1], 0),
-        ];
+        let [u, v, _] = self.lanes.at;
+        let uv = [u, v];
         let mut color =
             BlockLevel::new(s, self.of, &planes[at.min(last)])?.sample::<false>(s, uv)?;
         if let Some(fraction) = fraction {
@@ -93,9 +98,9 @@ pub(super) struct BlockLevel<'a, S: SimdLanes> {
     /// The words of a row.
     pub(super) row_words: usize,
     pub(super) mode: AddressMode,
-    /// The number of columns in lanes 0 to 3, of rows in the others: see
-    /// [`columns_and_three_rows`](SimdLanes::columns_and_three_rows).
-    lengths: f32x16<S>,
+    /// The number of columns in lanes 0 to 3 and 8 to 11, of rows in the others: see
+    /// [`columns_and_rows`](SimdLanes::columns_and_rows).
+    pub(super) lengths: f32x16<S>,
     /// One less: texels below these numbers have a neighbour.
     last: f32x16<S>,
 }
@@ -109,8 +114,7 @@ impl<'a, S: SimdLanes> BlockLevel<'a, S> {
             return None;
         }
         let [width, height] = [plane.size[0], plane.size[1]];
-        let rows = SimdBase::splat(s, height);
-        let lengths = s.columns_and_three_rows(SimdBase::splat(s, width), [rows; 3]);
+        let lengths = s.columns_and_rows(SimdBase::splat(s, width), SimdBase::splat(s, height));
         let [columns, rows, _] = plane.sides;
         let before = of.view.base_layer.cast_signed().wrapping_mul(rows);
         let before = usize::try_from(before.checked_mul(columns)?).ok()?;
@@ -129,69 +133,69 @@ impl<'a, S: SimdLanes> BlockLevel<'a, S> {
     /// The colour of each lane at (u, v), unwrapped; `None` if the samples do not stand in columns
     /// and rows, a texel is across a border, or texels are far apart.
     #[inline(always)]
-    pub(super) fn sample<const CLAMPS: bool>(
-        &self,
-        s: S,
-        uv: [f32x16<S>; 2],
-    ) -> Option<[f32x16<S>; 4]> {
-        let footprint = self.footprint::<CLAMPS>(s, uv)?;
-        let filtered = if footprint.are_neighbours {
-            self.neighbours(s, &footprint)?
-        } else {
-            self.apart(s, &footprint)?
-        };
-        Some(s.channels_of_rows(filtered))
-    }
-
-    /// Where the samples at (u, v) stand; `None` if they do not stand in columns and rows, or a
-    /// texel is across a border.
-    #[inline(always)]
-    fn footprint<const CLAMPS: bool>(&self, s: S, [u, v]: [f32x16<S>; 2]) -> Option<Footprint<S>> {
-        let is_block = u.eq(s.first_row(u)) & v.eq(s.first_column(v));
-        if s.bits_of_mask(is_block) != u16::MAX {
+    fn sample<const CLAMPS: bool>(&self, s: S, uv: [&Values<f32>; 2]) -> Option<[f32x16<S>; 4]> {
+        let mut colors = Answers::default();
+        if !self.find::<CLAMPS>(s, uv, &mut colors) {
             return None;
         }
-        let both = s.columns_and_rows(u, v);
-        let Place { texel, fraction } = self.place::<CLAMPS>(s, both, PLACES)?;
-        Some(Footprint {
-            texel,
-            are_neighbours: are_neighbours(s, texel.bitcast()),
-            across: s.spread_columns(fraction),
-            down: s.spread_rows(fraction),
-        })
+        let footprint = Footprint::of(&colors);
+        self.filter(s, footprint, footprint.are_neighbours(s))
     }
 
-    /// The texels of unwrapped coordinates, of columns in lanes 0 to 3 and of rows in the others,
-    /// and the positions after their centres; `None` if a texel of these lanes is across a border.
+    /// Finds where the samples at (u, v), unwrapped, stand, and stores their [footprint](Footprint)
+    /// in the memory of the colours. True if they stand in columns and rows, and no texel is across
+    /// a border. No branch depends on it, so that one place does not wait for another.
     #[inline(always)]
-    pub(super) fn place<const CLAMPS: bool>(
+    pub(super) fn find<const CLAMPS: bool>(
         &self,
         s: S,
-        at: f32x16<S>,
-        lanes: u16,
-    ) -> Option<Place<f32x16<S>>> {
+        [u, v]: [&Values<f32>; 2],
+        colors: &mut Answers,
+    ) -> bool {
         let mode = if CLAMPS {
             AddressMode::ClampToEdge
         } else {
             self.mode
         };
-        let place = place_by_lane(wrap(at, mode), self.lengths, self.last, mode);
-        let texel: i32x16<S> = place.texel;
+        let (u, v) = (
+            f32x16::load_array_ref(s, &u.0),
+            f32x16::load_array_ref(s, &v.0),
+        );
+        let stands: mask32x16<S> = u.simd_eq(s.first_row(u)) & v.simd_eq(s.first_column(v));
+        let both = s.columns_and_rows(u, v);
+        let Place { texel, fraction } =
+            place_by_lane(wrap(both, mode), self.lengths, self.last, mode);
         let last: i32x16<S> = self.last.to_int_within_range();
-        let [at, end]: [u32x16<S>; 2] = [texel.bitcast(), last.bitcast()];
-        let has_next: mask32x16<S> = at.simd_lt(end);
-        (s.bits_of_mask(has_next) & lanes == lanes).then_some(place)
+        let [texel, end]: [u32x16<S>; 2] = [texel.bitcast(), last.bitcast()];
+        // Lanes after the first eight repeat them.
+        let has_next: mask32x16<S> = texel.simd_lt(end);
+        colors[FRACTIONS] = packet(fraction, 0);
+        colors[TEXELS] = packet(texel.bitcast::<f32x16<S>>(), 0);
+        s.bits_of_mask(stands & has_next) == u16::MAX
+    }
+
+    /// The colours of a block.
+    #[inline(always)]
+    pub(super) fn filter(
+        &self,
+        s: S,
+        footprint: Footprint<'_>,
+        are_neighbours: bool,
+    ) -> Option<[f32x16<S>; 4]> {
+        let filtered = if are_neighbours {
+            self.neighbours(s, footprint)?
+        } else {
+            self.apart(s, footprint)?
+        };
+        Some(s.channels_of_rows(filtered))
     }
 
     /// The four rows of texels of a block whose texels are neighbours, in five rows of five; `None`
     /// if the level does not decode half floats.
     #[inline(always)]
-    fn neighbours(&self, s: S, footprint: &Footprint<S>) -> Option<[f32x16<S>; 4]> {
-        let (across, down) = (footprint.across, footprint.down);
-        let [column, _, _, _, row, ..] = footprint.texel.to_array();
-        let first = row.cast_unsigned() as usize * self.row_words;
-        let first = first + column.cast_unsigned() as usize * WORDS;
-        let mut left = self.texels.get(self.begin + first..)?;
+    fn neighbours(&self, s: S, footprint: Footprint<'_>) -> Option<[f32x16<S>; 4]> {
+        let across = footprint.across(s);
+        let mut left = self.texels_from(footprint.texel(0), footprint.texel(4))?;
         let mut upper = across;
         let mut filtered = [across; 4];
         let mut row = 0;
@@ -200,11 +204,9 @@ impl<'a, S: SimdLanes> BlockLevel<'a, S> {
                 left = left.get(self.row_words..)?;
             }
             let words: &[u32; NEIGHBOURS] = left.first_chunk()?;
-            let right = s.row_of_halves(words.last_chunk()?)?;
-            let left = s.row_of_halves(words.first_chunk()?)?;
-            let lower = left + (right - left) * across;
+            let lower = neighbours_across(s, words, across)?;
             if row > 0 {
-                filtered[row - 1] = upper + (lower - upper) * down[row - 1];
+                filtered[row - 1] = upper + (lower - upper) * footprint.down(s, row - 1);
             }
             upper = lower;
             row += 1;
@@ -215,59 +217,151 @@ impl<'a, S: SimdLanes> BlockLevel<'a, S> {
     /// The four rows of texels of any other block: the columns are among eight neighbours, and the
     /// rows, each filtered once, among a few.
     #[inline(always)]
-    fn apart(&self, s: S, footprint: &Footprint<S>) -> Option<[f32x16<S>; 4]> {
-        let (across, down) = (footprint.across, footprint.down);
-        let [first, _, _, fourth, rows @ ..] = footprint.texel.to_array();
-        // Columns go to the right or, in a mirrored texture, to the left; rows likewise.
-        let left = Ord::min(first, fourth);
-        let top = Ord::min(rows[0], rows[3]);
-        let bottom = Ord::max(rows[0], rows[3]) + 1;
-        let columns = Columns::new(s, footprint.texel, left)?;
-        let before = top.cast_unsigned() as usize * self.row_words;
-        let before = before + left.cast_unsigned() as usize * WORDS;
-        let mut texels = self.texels.get(self.begin + before..)?;
-        let mut lines = [across; MOST_LINES];
+    fn apart(&self, s: S, footprint: Footprint<'_>) -> Option<[f32x16<S>; 4]> {
+        let mut lines = [footprint.across(s); MOST_LINES];
+        // Rows go down or, in a mirrored texture, up.
+        let [first, last] = [footprint.texel(4), footprint.texel(7)];
+        let top = Ord::min(first, last);
+        let bottom = Ord::max(first, last) + 1;
         let lines = lines.get_mut(..=(bottom - top).cast_unsigned() as usize)?;
-        for (at, line) in lines.iter_mut().enumerate() {
-            if at > 0 {
-                texels = texels.get(self.row_words..)?;
-            }
-            // At the end of the texture a part of the window may not be in memory.
-            let [left, right] = s.half_texels(texels.first_chunk()?, &columns)?;
-            *line = left + (right - left) * across;
-        }
-        let mut filtered = [across; 4];
+        self.lines(s, footprint, top, lines)?;
+        let mut filtered = [lines[0]; 4];
         let mut row = 0;
         while row < 4 {
             // In a mirrored texture, a row between may be beyond the first and the last.
-            let at = rows[row].wrapping_sub(top).cast_unsigned() as usize;
+            let at = footprint.texel(4 + row).wrapping_sub(top).cast_unsigned() as usize;
             let &[upper, lower] = lines.get(at..)?.first_chunk()?;
-            filtered[row] = upper + (lower - upper) * down[row];
+            filtered[row] = upper + (lower - upper) * footprint.down(s, row);
             row += 1;
         }
         Some(filtered)
     }
+
+    /// Rows of texels from `top` on, filtered between the texels of a block's columns; `None` if
+    /// these are not among eight, or not in memory.
+    #[inline(always)]
+    pub(super) fn lines(
+        &self,
+        s: S,
+        footprint: Footprint<'_>,
+        top: i32,
+        lines: &mut [f32x16<S>],
+    ) -> Option<()> {
+        let across = footprint.across(s);
+        let [first, second, third, fourth] = footprint.columns();
+        // Columns go to the right or, in a mirrored texture, to the left.
+        let left = Ord::min(first, fourth);
+        let mut texels = self.texels_from(left, top)?;
+        if [second, third, fourth] == [first + 1, first + 2, first + 3] {
+            for (at, line) in lines.iter_mut().enumerate() {
+                if at > 0 {
+                    texels = texels.get(self.row_words..)?;
+                }
+                *line = neighbours_across(s, texels.first_chunk()?, across)?;
+            }
+            return Some(());
+        }
+        let columns = Columns::new(s, footprint.columns_of(s), left)?;
+        // At the end of the texture a part of a window may not be in memory.
+        if columns.are_among_four() {
+            for (at, line) in lines.iter_mut().enumerate() {
+                if at > 0 {
+                    texels = texels.get(self.row_words..)?;
+                }
+                let [left, right] = s.half_texels_of_four(texels.first_chunk()?, &columns)?;
+                *line = left + (right - left) * across;
+            }
+            return Some(());
+        }
+        for (at, line) in lines.iter_mut().enumerate() {
+            if at > 0 {
+                texels = texels.get(self.row_words..)?;
+            }
+            let [left, right] = s.half_texels(texels.first_chunk()?, &columns)?;
+            *line = left + (right - left) * across;
+        }
+        Some(())
+    }
+
+    /// The words from a texel on; `None` if it is not in memory.
+    #[inline(always)]
+    fn texels_from(&self, column: i32, row: i32) -> Option<&[u32]> {
+        let before = row.cast_unsigned() as usize * self.row_words;
+        let before = before + column.cast_unsigned() as usize * WORDS;
+        self.texels.get(self.begin + before..)
+    }
 }
 
-/// Where the samples of a block stand in a level.
-struct Footprint<S: SimdLanes> {
+/// A row of five texels, filtered between each and the next.
+#[inline(always)]
+fn neighbours_across<S: SimdLanes>(
+    s: S,
+    words: &[u32; NEIGHBOURS],
+    across: f32x16<S>,
+) -> Option<f32x16<S>> {
+    let right = s.row_of_halves(words.last_chunk()?)?;
+    let left = s.row_of_halves(words.first_chunk()?)?;
+    Some(left + (right - left) * across)
+}
+
+/// Where the samples of a block stand in a level: in memory, so that numbers of texels are loaded
+/// where addresses need them, and the weights of rows are operands in memory.
+#[derive(Clone, Copy)]
+pub(super) struct Footprint<'a> {
     /// The left texel of each column, then the upper one of each row, in the order of
     /// [`columns_and_rows`](SimdLanes::columns_and_rows). Texels have a neighbour.
-    texel: i32x16<S>,
-    /// True if columns and rows are each four neighbours.
-    are_neighbours: bool,
-    /// The weight of each column's right texel, four times.
-    across: f32x16<S>,
-    /// The weight of each row's lower texels.
-    down: [f32x16<S>; 4],
+    texels: &'a Values<u32>,
+    /// The position of each sample between its texel and the next: the weight of the next one.
+    fractions: &'a Values<f32>,
 }
 
-/// True if columns and rows, in the order of [`columns_and_rows`](SimdLanes::columns_and_rows), are
-/// each four neighbours.
-#[inline(always)]
-fn are_neighbours<S: SimdLanes>(s: S, at: u32x16<S>) -> bool {
-    let first = at - u32x16::load_array(s, [0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3]);
-    let order = u32x16::load_array(s, [0, 0, 0, 0, 4, 4, 4, 4, 0, 0, 0, 0, 4, 4, 4, 4]);
-    let is_same: mask32x16<S> = first.simd_eq(s.permute(first, order));
-    s.bits_of_mask(is_same) & PLACES == PLACES
+impl<'a> Footprint<'a> {
+    /// The footprint that [`BlockLevel::find`] stored in these colours.
+    #[inline(always)]
+    pub(super) fn of(colors: &'a Answers) -> Self {
+        Self {
+            texels: &words_of(colors)[TEXELS],
+            fractions: &colors[FRACTIONS],
+        }
+    }
+
+    /// The left texel of a column, 0 to 3, or the upper one of a row, 4 to 7.
+    #[inline(always)]
+    pub(super) fn texel(&self, at: usize) -> i32 {
+        self.texels.0[at].cast_signed()
+    }
+
+    /// True if columns and rows are each four neighbours.
+    #[inline(always)]
+    pub(super) fn are_neighbours<S: SimdLanes>(&self, s: S) -> bool {
+        let at = u32x16::load_array_ref(s, &self.texels.0);
+        let first = at - u32x16::load_array(s, [0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3]);
+        let order = u32x16::load_array(s, [0, 0, 0, 0, 4, 4, 4, 4, 0, 0, 0, 0, 4, 4, 4, 4]);
+        let is_same: mask32x16<S> = first.simd_eq(s.permute(first, order));
+        s.bits_of_mask(is_same) == u16::MAX
+    }
+
+    /// The left texel of each column.
+    #[inline(always)]
+    fn columns(&self) -> [i32; 4] {
+        [self.texel(0), self.texel(1), self.texel(2), self.texel(3)]
+    }
+
+    /// The same in lanes 0 to 3.
+    #[inline(always)]
+    fn columns_of<S: SimdLanes>(&self, s: S) -> i32x16<S> {
+        u32x16::load_array_ref(s, &self.texels.0).bitcast()
+    }
+
+    /// The weight of each column's right texel, four times.
+    #[inline(always)]
+    fn across<S: SimdLanes>(&self, s: S) -> f32x16<S> {
+        s.spread_columns(f32x16::load_array_ref(s, &self.fractions.0))
+    }
+
+    /// The weight of a row's lower texels.
+    #[inline(always)]
+    pub(super) fn down<S: SimdLanes>(&self, s: S, row: usize) -> f32x16<S> {
+        SimdBase::splat(s, self.fractions.0[4 + row])
+    }
 }
