@@ -421,6 +421,11 @@ impl Context {
         };
         let mut jobs = recycled(std::mem::take(&mut memory.lists.tile_jobs));
         tile_jobs(target, &mut jobs);
+        // A pass that a program's panic ended has left what it knew.
+        let mut lost = Statistics::default();
+        end_pass(&mut memory.tiles_1, &mut lost);
+        end_pass(&mut memory.tiles_4, &mut lost);
+        end_pass(&mut memory.tiles_many, &mut lost);
         let mut statistics = Statistics::default();
         match facts.samples {
             1 if !self.level.is_scalar() => {

@@ -33,7 +33,7 @@ impl<'a> PacketPlaces<'a> {
         }
     }
 
-    /// The same in parts of so many packets, and fewer at the end.
+    /// Parts of so many packets each, of fewer at the end.
     pub(crate) fn chunks(&self, packets: usize) -> impl Iterator<Item = Self> + use<'a> {
         let places = *self;
         let scalars = self.scalars.chunks(packets * self.stride.max(1));

@@ -300,8 +300,8 @@ impl SampledTexture {
         self.sample_by_blocks::<true>(lod, &PacketPlaces::of_pairs(at), colors);
     }
 
-    /// The same at one place in each packet of a batch, whose
-    /// [gradients](PacketPlaces::gradients) do not count. False, with nothing stored, if the
+    /// The colours at one place in each packet of a batch, as [`sample_each`](Self::sample_each)
+    /// gives them; [gradients](PacketPlaces::gradients) do not count. False, with nothing stored, if the
     /// texture is not of half floats, or another level than the finest may count.
     #[must_use]
     pub fn sample_batch(

@@ -347,7 +347,7 @@ impl<'a> Footprint<'a> {
         [self.texel(0), self.texel(1), self.texel(2), self.texel(3)]
     }
 
-    /// The same in lanes 0 to 3.
+    /// [`columns`](Self::columns) in lanes 0 to 3.
     #[inline(always)]
     fn columns_of<S: SimdLanes>(&self, s: S) -> i32x16<S> {
         u32x16::load_array_ref(s, &self.texels.0).bitcast()
