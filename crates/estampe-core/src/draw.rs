@@ -20,7 +20,7 @@ use crate::raster::MAX_SAMPLES;
 use crate::recycle::recycled;
 use crate::schedule::{Executor, ThreadError, ThreadPool};
 use crate::statistics::Statistics;
-use crate::tile_pass::{self, Clear, MAX_TARGETS, TileJob, TilePass, TileScratch};
+use crate::tile_pass::{self, Clear, MAX_TARGETS, TileJob, TilePass, TileScratch, TileWords};
 use estampe_simd::Level;
 use std::ops::Range;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -157,7 +157,8 @@ impl Context {
     ///
     /// # Errors
     /// [`RenderPassError`] if a draw does not fit the target; nothing is drawn or cleared then. If
-    /// the pass is [cancelled](RenderPassError::Cancelled), the target holds a part of it.
+    /// the pass is [cancelled](RenderPassError::Cancelled), or
+    /// [memory is short](RenderPassError::OutOfMemory), the target holds a part of it.
     pub fn render(
         &self,
         target: &mut RenderTarget,
@@ -247,6 +248,8 @@ impl Context {
             } else {
                 Discards::default()
             };
+            let taken = target.take_memory(discards);
+            statistics.images_given_memory += taken.map_err(out_of_memory)?;
             let attachments = TileAttachments {
                 target: &mut *target,
                 clear: &clear,
@@ -259,7 +262,7 @@ impl Context {
                 &batch,
                 chunks,
                 memory,
-            );
+            )?;
             statistics.raster += start.elapsed();
             statistics.vertices_shaded += batch.total_vertices() as u64;
             statistics.primitives_in += batch.invisible_primitives;
@@ -371,7 +374,7 @@ impl Context {
         batch: &DrawBatch<'_>,
         chunks: usize,
         memory: &mut Memory,
-    ) -> Statistics {
+    ) -> Result<Statistics, RenderPassError> {
         let TileAttachments {
             target,
             clear,
@@ -419,6 +422,7 @@ impl Context {
             discards,
             resolved,
         };
+        let words = TileWords::of(target, discards);
         let mut jobs = recycled(std::mem::take(&mut memory.lists.tile_jobs));
         tile_jobs(target, &mut jobs);
         // A pass that a program's panic ended has left what it knew.
@@ -429,18 +433,21 @@ impl Context {
         let mut statistics = Statistics::default();
         match facts.samples {
             1 if !self.level.is_scalar() => {
+                begin_pass(&mut memory.tiles_1, &words)?;
                 executor.for_each_ahead(&mut jobs, &memory.tiles_1, |job, next, scratch| {
                     tile_pass::draw(&pass, job, next, scratch);
                 });
                 end_pass(&mut memory.tiles_1, &mut statistics);
             }
             4 if !self.level.is_scalar() => {
+                begin_pass(&mut memory.tiles_4, &words)?;
                 executor.for_each_ahead(&mut jobs, &memory.tiles_4, |job, next, scratch| {
                     tile_pass::draw(&pass, job, next, scratch);
                 });
                 end_pass(&mut memory.tiles_4, &mut statistics);
             }
             _ => {
+                begin_pass(&mut memory.tiles_many, &words)?;
                 executor.for_each_ahead(&mut jobs, &memory.tiles_many, |job, next, scratch| {
                     tile_pass::draw(&pass, job, next, scratch);
                 });
@@ -453,7 +460,7 @@ impl Context {
         memory.lists.tile_jobs = recycled(jobs);
         memory.lists.plans = recycled(plans);
         memory.lists.tile_states = recycled(states);
-        statistics
+        Ok(statistics)
     }
 }
 
@@ -498,6 +505,23 @@ fn tile_jobs<'a>(target: &'a mut RenderTarget, jobs: &mut Vec<TileJob<'a>>) {
     for (job, slice) in jobs.iter_mut().zip(depth.chunks_exact_mut(elements)) {
         job.depth = slice.as_chunks_mut().0;
     }
+}
+
+fn out_of_memory(bytes: u64) -> RenderPassError {
+    RenderPassError::OutOfMemory { bytes }
+}
+
+/// Takes the memory of all workers for tiles of the attachments that a pass discards.
+fn begin_pass<const N: usize>(
+    scratch: &mut [Mutex<TileScratch<N>>],
+    words: &TileWords,
+) -> Result<(), RenderPassError> {
+    for worker in scratch {
+        let worker = worker.get_mut().unwrap_or_else(PoisonError::into_inner);
+        let taken = worker.begin_pass(words);
+        taken.ok_or_else(|| out_of_memory(words.bytes()))?;
+    }
+    Ok(())
 }
 
 fn end_pass<const N: usize>(scratch: &mut [Mutex<TileScratch<N>>], total: &mut Statistics) {

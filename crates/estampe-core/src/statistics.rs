@@ -112,6 +112,9 @@ pub struct Statistics {
     /// Tiles of which some attachment was in the memory of a worker alone.
     #[doc(hidden)]
     pub tiles_in_workers: u64,
+    /// Attachments that had no memory, of which the pass needed more than one tile in a worker.
+    #[doc(hidden)]
+    pub images_given_memory: u64,
     /// Packets of tiles of which colours were not cleared, as triangles were shown everywhere. They
     /// depend on the SIMD level.
     #[doc(hidden)]
@@ -172,6 +175,7 @@ impl std::ops::AddAssign for Statistics {
         self.tiles_resolved += other.tiles_resolved;
         self.tiles_to_rows += other.tiles_to_rows;
         self.tiles_in_workers += other.tiles_in_workers;
+        self.images_given_memory += other.images_given_memory;
         self.packets_shown_uncleared += other.packets_shown_uncleared;
         self.geometry += other.geometry;
         self.raster += other.raster;

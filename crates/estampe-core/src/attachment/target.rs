@@ -1,8 +1,9 @@
 //! A render target: colour attachments and a depth attachment of one size.
 
 use super::texels::{ColorTexels, DepthStencilTexels, ImageSize};
+use crate::commands::Discards;
 use crate::depth_format::DepthFormat;
-use crate::layout::TileGrid;
+use crate::layout::{TileGrid, texel_words};
 use estampe_types::{Lines, TextureFormat};
 use std::ops::Range;
 use std::sync::Arc;
@@ -82,6 +83,31 @@ impl RenderTarget {
             resolves: Vec::new(),
             rows: Vec::new(),
         }
+    }
+
+    /// Takes memory for the images that have none, but for those of which workers keep a tile, and
+    /// says how many they are. The error is the size of an image for which memory is short, in
+    /// bytes.
+    pub(crate) fn take_memory(&mut self, in_workers: Discards) -> Result<u64, u64> {
+        let size = self.size;
+        let mut taken = 0;
+        let bytes = |words: usize| (size.stored_samples() * words) as u64 * 4;
+        for (index, color) in self.colors.iter_mut().enumerate() {
+            if !color.has_memory() && in_workers.colors >> index & 1 == 0 {
+                let format = color.format;
+                let zeros = ColorTexels::zeros(format, size);
+                *color = zeros.ok_or_else(|| bytes(texel_words(format)))?;
+                taken += 1;
+            }
+        }
+        if let Some(texels) = &mut self.depth_stencil
+            && !texels.has_memory()
+            && !in_workers.depth_stencil
+        {
+            *texels = DepthStencilTexels::zeros(texels.format, size).ok_or_else(|| bytes(1))?;
+            taken += 1;
+        }
+        Ok(taken)
     }
 
     /// Has passes resolve a colour attachment into an image, which must have one sample and the

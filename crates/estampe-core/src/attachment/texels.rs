@@ -54,6 +54,23 @@ impl ColorTexels {
         })
     }
 
+    /// An image without memory, for a pass that clears it first and discards it last. A pass that
+    /// needs its memory takes it.
+    #[must_use]
+    pub fn without_memory(format: TextureFormat, size: ImageSize) -> Self {
+        Self {
+            format,
+            size,
+            words: Lines::default(),
+        }
+    }
+
+    /// False for an image [without memory](Self::without_memory) that no pass has needed.
+    #[must_use]
+    pub fn has_memory(&self) -> bool {
+        !self.words.is_empty()
+    }
+
     /// Reinterprets the texels in another format, which differs in sRGB alone.
     #[must_use]
     pub fn with_format(self, format: TextureFormat) -> Self {
@@ -104,6 +121,24 @@ impl DepthStencilTexels {
             stencil: Lines::zeros(stencil)?,
             depth_bounds: Arc::default(),
         })
+    }
+
+    /// An image without memory: see [`ColorTexels::without_memory`].
+    #[must_use]
+    pub fn without_memory(format: TextureFormat, size: ImageSize) -> Self {
+        Self {
+            format,
+            size,
+            depth: Arc::default(),
+            stencil: Lines::default(),
+            depth_bounds: Arc::default(),
+        }
+    }
+
+    /// False for an image [without memory](Self::without_memory) that no pass has needed.
+    #[must_use]
+    pub fn has_memory(&self) -> bool {
+        !self.depth.is_empty() || !self.stencil.is_empty()
     }
 
     /// The format of the texels.

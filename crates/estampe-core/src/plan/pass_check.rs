@@ -87,6 +87,12 @@ pub enum RenderPassError {
     /// Another thread has cancelled the pass, whose target holds a part of it.
     #[error("the pass was cancelled; its attachments hold what was drawn until then")]
     Cancelled,
+    /// The system has not enough memory for an attachment.
+    #[error("no memory for an attachment of {bytes} bytes")]
+    OutOfMemory {
+        /// The bytes that it takes.
+        bytes: u64,
+    },
     /// More load operations than colour attachments.
     #[error(
         "the pass has {given} colour load operations and {attachments} colour attachments; \

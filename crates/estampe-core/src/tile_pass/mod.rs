@@ -15,6 +15,7 @@ mod visibility;
 mod worker_tile;
 
 pub(crate) use clear::Clear;
+pub(crate) use worker_tile::TileWords;
 
 use crate::attachment::TileRows;
 use crate::attachment::resolve::ResolveJob;
@@ -142,12 +143,8 @@ pub(crate) fn draw<const N: usize>(
         return draw_into(pass, job, scratch);
     }
     let mut tile = std::mem::take(&mut scratch.tile);
-    if let Some(mut own) = tile.job(pass, job) {
-        draw_into(pass, &mut own, scratch);
-        scratch.statistics.tiles_in_workers += 1;
-    } else {
-        draw_into(pass, job, scratch);
-    }
+    draw_into(pass, &mut tile.job(pass.discards, job), scratch);
+    scratch.statistics.tiles_in_workers += 1;
     scratch.tile = tile;
 }
 
@@ -236,6 +233,11 @@ fn clear_colors<const N: usize>(
 }
 
 impl<const N: usize> TileScratch<N> {
+    /// Takes the memory that a pass needs; `None` if it is short.
+    pub(crate) fn begin_pass(&mut self, words: &TileWords) -> Option<()> {
+        self.tile.begin_pass(words)
+    }
+
     /// Ends a pass: what is known of its draws is forgotten. Gives what was counted.
     pub(crate) fn end_pass(&mut self) -> Statistics {
         self.in_order.end_pass();

@@ -1,6 +1,9 @@
 //! Attachments that only a pass needs: one tile of them, in the memory of a worker.
 
-use super::{MAX_TARGETS, TileJob, TilePass};
+use super::{MAX_TARGETS, TileJob};
+use crate::attachment::RenderTarget;
+use crate::commands::Discards;
+use crate::layout::texel_words;
 use estampe_types::Lines;
 
 /// One tile of the attachments that a pass clears first and discards last. It stays in a core's
@@ -12,24 +15,58 @@ pub(super) struct WorkerTile {
     stencil: Lines<u8>,
 }
 
-impl WorkerTile {
-    /// A tile's job with this memory in place of the attachments that the pass discards; `None` if
-    /// memory is short.
-    pub(super) fn job<'a, 'b: 'a>(
-        &'a mut self,
-        pass: &TilePass<'_>,
-        job: &mut TileJob<'b>,
-    ) -> Option<TileJob<'a>> {
-        let discards = pass.discards;
-        for (index, (memory, image)) in self.colors.iter_mut().zip(&job.colors).enumerate() {
-            if discards.colors >> index & 1 == 1 {
-                resize(memory, image.as_flattened().len())?;
-            }
+/// The elements of a tile of those attachments that a pass discards.
+#[derive(Debug, Default)]
+pub(crate) struct TileWords {
+    colors: [usize; MAX_TARGETS],
+    depth: usize,
+    stencil: usize,
+}
+
+impl TileWords {
+    /// None of the attachments that are not discarded.
+    pub(crate) fn of(target: &RenderTarget, discards: Discards) -> Self {
+        let samples = target.grid().tile_pixels() * target.samples() as usize;
+        let mut words = Self::default();
+        let formats = target.color_formats().iter().enumerate();
+        for (index, format) in formats.filter(|(index, _)| discards.colors >> index & 1 == 1) {
+            words.colors[index] = samples * texel_words(*format);
         }
         if discards.depth_stencil {
-            resize(&mut self.depth, job.depth.as_flattened().len())?;
-            resize(&mut self.stencil, job.stencil.as_flattened().len())?;
+            words.depth = if target.has_depth() { samples } else { 0 };
+            words.stencil = if target.has_stencil() { samples } else { 0 };
         }
+        words
+    }
+
+    /// The memory that they take.
+    pub(crate) fn bytes(&self) -> u64 {
+        let words = self.colors.iter().sum::<usize>() + self.depth;
+        (words * 4 + self.stencil) as u64
+    }
+}
+
+impl WorkerTile {
+    /// Takes memory, whose values do not matter, where that of the pass before does not fit; `None`
+    /// if it is short.
+    pub(super) fn begin_pass(&mut self, words: &TileWords) -> Option<()> {
+        let colors = self.colors.iter_mut().zip(words.colors);
+        for (memory, len) in colors.filter(|(_, len)| *len > 0) {
+            resize(memory, len)?;
+        }
+        if words.depth + words.stencil > 0 {
+            resize(&mut self.depth, words.depth)?;
+            resize(&mut self.stencil, words.stencil)?;
+        }
+        Some(())
+    }
+
+    /// A tile's job with this memory in place of the attachments that the pass discards.
+    pub(super) fn job<'a, 'b: 'a>(
+        &'a mut self,
+        discards: Discards,
+        job: &mut TileJob<'b>,
+    ) -> TileJob<'a> {
         let mut job: TileJob<'a> = std::mem::take(job);
         for (index, (memory, image)) in self.colors.iter_mut().zip(&mut job.colors).enumerate() {
             if discards.colors >> index & 1 == 1 {
@@ -40,7 +77,7 @@ impl WorkerTile {
             job.depth = self.depth.as_chunks_mut().0;
             job.stencil = self.stencil.as_chunks_mut().0;
         }
-        Some(job)
+        job
     }
 }
 

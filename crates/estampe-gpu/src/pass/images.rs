@@ -3,7 +3,7 @@
 use super::attachments::{Attachments, Use, is_discarded, load_of};
 use super::{DepthStencilAttachment, PassErrorKind, StoreOp};
 use crate::Context;
-use crate::texture::{Image, Newest};
+use crate::texture::{Image, Needs, Newest};
 use estampe_core::{DepthStencilTexels, LoadOp, RenderTarget};
 
 /// The images of a pass, and where the newest texels of each are.
@@ -24,8 +24,12 @@ impl Attachments<'_> {
             depth_stencil: None,
         };
         for color in &self.colors {
-            let keeps = color.attachment.load == LoadOp::Load;
-            match take(context, &color.image, keeps) {
+            let needs = match (color.attachment.load, color.attachment.store) {
+                (LoadOp::Load, _) => Needs::Texels,
+                (LoadOp::Clear(_), StoreOp::Store) => Needs::Memory,
+                (LoadOp::Clear(_), StoreOp::Discard) => Needs::Nothing,
+            };
+            match take(context, &color.image, needs) {
                 Ok(image) => taken.colors.push(image),
                 Err(error) => return Err(self.put_back(taken, error)),
             }
@@ -34,7 +38,7 @@ impl Attachments<'_> {
             let Some(resolve) = &color.resolve else {
                 continue;
             };
-            match take(context, resolve, false) {
+            match take(context, resolve, Needs::Memory) {
                 Ok(image) => taken.resolves.push((number, image)),
                 Err(error) => return Err(self.put_back(taken, error)),
             }
@@ -44,7 +48,12 @@ impl Attachments<'_> {
             let keeps_depth = load_of(attachment.depth) == LoadOp::Load;
             let keeps_stencil = load_of(attachment.stencil) == LoadOp::Load;
             let keeps = format.has_depth() && keeps_depth || format.has_stencil() && keeps_stencil;
-            match take(context, image, keeps) {
+            let needs = match (keeps, self.discards().depth_stencil) {
+                (true, _) => Needs::Texels,
+                (false, false) => Needs::Memory,
+                (false, true) => Needs::Nothing,
+            };
+            match take(context, image, needs) {
                 Ok(image) => taken.depth_stencil = Some(image),
                 Err(error) => return Err(self.put_back(taken, error)),
             }
@@ -163,7 +172,7 @@ impl Attachments<'_> {
                     resolve.depth.filter(|_| format.has_depth()),
                     resolve.stencil.filter(|_| format.has_stencil()),
                 ];
-                match take(context, into, true) {
+                match take(context, into, Needs::Texels) {
                     Ok((Image::DepthStencil(mut resolved), _)) => {
                         context.resolve_depth_stencil(&texels, &mut resolved, modes);
                         let resolved = Image::DepthStencil(resolved);
@@ -228,9 +237,13 @@ impl Attachments<'_> {
     }
 }
 
-fn take(context: &Context, image: &Use<'_>, keeps: bool) -> Result<(Image, Newest), PassErrorKind> {
+fn take(
+    context: &Context,
+    image: &Use<'_>,
+    needs: Needs,
+) -> Result<(Image, Newest), PassErrorKind> {
     let texture = image.view.texture();
-    let taken = texture.lock().take(texture, context, image.key, keeps);
+    let taken = texture.lock().take(texture, context, image.key, needs);
     taken.map_err(|error| PassErrorKind::Texture {
         attachment: image.role.to_string(),
         error,

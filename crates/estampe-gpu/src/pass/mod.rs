@@ -79,8 +79,8 @@ pub enum StoreOp {
     ///
     /// Of an attachment that is cleared at the beginning nothing is written to memory then, unless
     /// the pass has more than about two million vertices or primitives: each thread keeps one tile
-    /// of it. So are the depths of most passes, and samples that are resolved: four times as many
-    /// bytes as the picture has.
+    /// of it, and the texture has no memory. So are the depths of most passes, and samples that are
+    /// resolved: four times as many bytes as the picture has.
     Discard,
 }
 

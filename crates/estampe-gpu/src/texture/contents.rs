@@ -33,6 +33,17 @@ pub(crate) enum Newest {
     Discarded,
 }
 
+/// What a pass needs of an image that it takes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Needs {
+    /// The texels as they are.
+    Texels,
+    /// The memory alone, whatever it holds.
+    Memory,
+    /// Nothing: the image is cleared first and discarded last.
+    Nothing,
+}
+
 /// A mip level in atomic words.
 #[derive(Debug)]
 struct StoredLevel {
@@ -231,14 +242,15 @@ impl Contents {
     }
 
     /// Takes an image out in tiles, for a pass that renders to it, and says where its newest texels
-    /// are. Without `keeps`, the tiles may hold anything.
+    /// are.
     pub(crate) fn take(
         &mut self,
         texture: &Texture,
         context: &Context,
         key: ImageKey,
-        keeps: bool,
+        needs: Needs,
     ) -> Result<(Image, Newest), TextureError> {
+        let keeps = needs == Needs::Texels;
         if keeps {
             self.loaded.insert(key);
         }
@@ -249,16 +261,25 @@ impl Contents {
         let (mut image, mut newest) = match self.images.remove(&key) {
             Some((_, Newest::Discarded)) if keeps => {
                 if self.rows.is_some() {
-                    self.images
-                        .insert(key, (zeros(texture, key)?, Newest::Discarded));
+                    let image = without_memory(texture, key);
+                    self.images.insert(key, (image, Newest::Discarded));
                     self.update_rows(texture, context)?;
                     self.images.remove(&key);
                 }
-                (zeros(texture, key)?, Newest::Rows)
+                (without_memory(texture, key), Newest::Rows)
             }
             Some(stored) => stored,
-            None => (zeros(texture, key)?, Newest::Rows),
+            None => (without_memory(texture, key), Newest::Rows),
         };
+        if needs != Needs::Nothing && !image.has_memory() {
+            match zeros(texture, key) {
+                Ok(zeros) => image = zeros,
+                Err(error) => {
+                    self.put_unchanged(key, (image, newest));
+                    return Err(error);
+                }
+            }
+        }
         if keeps && newest == Newest::Rows {
             newest = Newest::Tiles;
             if let Some(data) = &self.rows {
@@ -345,13 +366,31 @@ impl Contents {
         context: &Context,
         key: ImageKey,
     ) -> Result<Option<ShadowMap>, TextureError> {
-        let (mut image, newest) = self.take(texture, context, key, true)?;
+        let (mut image, newest) = self.take(texture, context, key, Needs::Texels)?;
         let map = match &mut image {
             Image::DepthStencil(depth) => context.shadow_map_of(depth),
             Image::Color(_) => None,
         };
         self.put_unchanged(key, (image, newest));
         Ok(map)
+    }
+}
+
+impl Image {
+    fn has_memory(&self) -> bool {
+        match self {
+            Self::Color(image) => image.has_memory(),
+            Self::DepthStencil(image) => image.has_memory(),
+        }
+    }
+}
+
+fn without_memory(texture: &Texture, key: ImageKey) -> Image {
+    let (format, size) = (texture.format(), texture.image_size(key.level));
+    if format.is_color() {
+        Image::Color(ColorTexels::without_memory(format, size))
+    } else {
+        Image::DepthStencil(DepthStencilTexels::without_memory(format, size))
     }
 }
 

@@ -1,7 +1,7 @@
 //! Copies between textures: whole images that a pass rendered last in tiles, all other texels in
 //! rows, compressed ones as blocks.
 
-use super::contents::{Contents, Image};
+use super::contents::{Contents, Image, Needs};
 use super::region::{Region, TexelCopyLayout, TextureCopy, unsupported};
 use super::{Extent3d, ImageKey, TextureError, TextureUsages, host_access};
 use crate::Context;
@@ -84,7 +84,7 @@ fn copy_tiles(
     tiles: &Image,
     (contents, into, key): (&mut Contents, &TextureCopy<'_>, ImageKey),
 ) -> Result<(), TextureError> {
-    let (mut image, _) = contents.take(into.texture, context, key, false)?;
+    let (mut image, _) = contents.take(into.texture, context, key, Needs::Memory)?;
     match (&mut image, tiles) {
         (Image::Color(image), Image::Color(tiles)) => image.copy_from(tiles),
         (Image::DepthStencil(image), Image::DepthStencil(tiles)) => image.copy_from(tiles),

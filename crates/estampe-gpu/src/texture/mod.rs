@@ -11,7 +11,7 @@ mod stores;
 mod view;
 mod words;
 
-pub(crate) use contents::{Contents, Image, ImageKey, Newest, words_of};
+pub(crate) use contents::{Contents, Image, ImageKey, Needs, Newest, words_of};
 pub(crate) use copy_texels::{check_copy, copy};
 pub use error::TextureError;
 pub(crate) use host_access::{check_read, check_write, read, read_sample, read_tight, write, zero};

@@ -203,3 +203,75 @@ fn what_is_kept_does_not_depend_on_what_is_discarded() {
         }
     }
 }
+
+/// Images that a pass clears first and discards last have no memory, until a pass cannot keep a
+/// tile of them in each worker: because it draws tiles twice, or because it ends with part of the
+/// draws.
+#[test]
+fn images_take_memory_when_a_pass_needs_it() {
+    let (size, format) = ([40, 21], TextureFormat::Rgba8Unorm);
+    for (name, device) in devices() {
+        let descriptor = RenderPipelineDescriptor {
+            multisample: MultisampleState::new(4),
+            ..RenderPipelineDescriptor::new(Fill {
+                color: [1.0, 0.5, 0.0, 1.0],
+                depth: 0.25,
+            })
+        };
+        let pipeline = device.create_render_pipeline(&descriptor).unwrap();
+        let resolved = texture(&device, size, format);
+        let render = |images: &Images, draws: &[Draw<'_>], queries: Option<&RangeQueries>| {
+            clear(&device, &resolved.view(), [0.0; 4]);
+            let color = ColorAttachment {
+                resolve_target: Some(resolved.view()),
+                store: StoreOp::Discard,
+                ..ColorAttachment::clear(&images.color.view(), [0.0; 4])
+            };
+            let depth = DepthStencilAttachment {
+                depth: AspectOperations::Write {
+                    load: LoadOp::Clear(1.0),
+                    store: StoreOp::Discard,
+                },
+                ..images.cleared_depth()
+            };
+            let pass = RenderPass {
+                color_attachments: &[Some(color)],
+                depth_stencil_attachment: Some(depth),
+                range_queries: queries,
+                draws,
+                ..RenderPass::default()
+            };
+            let statistics = device.render(&pass).unwrap();
+            let colors = device.read_texture(&resolved).unwrap();
+            let is_drawn = |color: &[u8; 4]| *color == [255, 128, 0, 255];
+            assert!(colors.as_chunks().0.iter().all(is_drawn), "{name}");
+            statistics.images_given_memory
+        };
+        let fresh = || Images::with(&device, size, format, 4);
+        let (draw, images) = (Draw::new(&pipeline, 0..3), fresh());
+        let draws = [draw.clone(), draw.clone()];
+        for _ in 0..2 {
+            assert_eq!(render(&images, &draws, None), 0, "{name}");
+        }
+        // A pass that loads sees zeros, although the other one has drawn.
+        let pass = RenderPass {
+            color_attachments: &[Some(ColorAttachment {
+                resolve_target: Some(resolved.view()),
+                ..ColorAttachment::load(&images.color.view())
+            })],
+            ..RenderPass::default()
+        };
+        device.render(&pass).unwrap();
+        let colors = device.read_texture(&resolved).unwrap();
+        assert!(colors.iter().all(|byte| *byte == 0), "{name}");
+        // Only depth has no memory yet.
+        let parts = RangeQueries::new([0..1, 1..2]);
+        assert_eq!(render(&images, &draws, Some(&parts)), 1, "{name}");
+        let images = fresh();
+        assert_eq!(render(&images, &draws, Some(&parts)), 2, "{name}");
+        assert_eq!(render(&images, &draws, Some(&parts)), 0, "{name}");
+        // More vertices than a batch has.
+        let draws = [Draw::new(&pipeline, 0..2_100_000), draw];
+        assert_eq!(render(&fresh(), &draws, None), 2, "{name}");
+    }
+}
