@@ -1,6 +1,7 @@
 //! Reading the bytes of a file, up to the limit.
 
 use crate::Limits;
+use crate::zeros::zeros;
 use estampe_scene::Workers;
 use std::fs::File;
 use std::io::{self, Read, Seek, SeekFrom};
@@ -61,7 +62,7 @@ fn read_parts(file: &File, expected: u64, limits: &Limits) -> Option<Vec<u8>> {
     if len <= PART || expected > limits.max_file_bytes || !file.metadata().ok()?.is_file() {
         return None;
     }
-    let mut bytes = vec![0; len];
+    let mut bytes = zeros(len);
     let parts = bytes.chunks_mut(PART).zip((0_u64..).step_by(PART));
     let read = Workers::new(limits.threads).map(parts, |(part, at)| file.read_exact_at(part, at));
     read.into_iter().all(|read| read.is_ok()).then_some(bytes)

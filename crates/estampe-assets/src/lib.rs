@@ -17,6 +17,7 @@ pub mod image;
 mod limits;
 pub mod model;
 mod warning;
+mod zeros;
 
 /// The README's snippet, compiled and run as a test.
 #[cfg(doctest)]

@@ -56,10 +56,11 @@ const CRATES: &[(&str, &[&str])] = &[
     ("estampe-shapes", &[]),
     ("estampe-scene", &[]),
     // Images are halved with the mean of the pipeline's mip levels, and blocks of KTX2 decoded as
-    // those of textures.
+    // those of textures; large lists are in huge pages, as textures are.
     (
         "estampe-assets",
         &[
+            "estampe-simd",
             "estampe-format",
             "estampe-scene",
             "estampe-shapes",

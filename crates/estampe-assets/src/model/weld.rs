@@ -3,6 +3,7 @@
 //! Keys are distributed by three bits of their hash, in order, to eight small tables, which threads
 //! fill at once. The first of equal keys depends on neither the tables nor the threads.
 
+use crate::zeros::zeros;
 use estampe_scene::{Workers, pieces};
 use glam::Vec3;
 use std::sync::atomic::{AtomicU32, Ordering};
@@ -80,7 +81,7 @@ impl<'a, K: Fn(usize) -> Key> Table<'a, K> {
         let bits = (count.saturating_mul(2) | 1).ilog2() + 1;
         let bits = bits.clamp(Self::LEAST_BITS, 32);
         Self {
-            slots: vec![0; 1 << bits],
+            slots: zeros(1 << bits),
             shift: 64 - bits,
             len: 0,
             key,
@@ -115,7 +116,7 @@ impl<'a, K: Fn(usize) -> Key> Table<'a, K> {
     fn grow(&mut self) {
         self.shift -= 2;
         let size = self.slots.len() * 4;
-        let occupants = std::mem::replace(&mut self.slots, vec![0; size]);
+        let occupants = std::mem::replace(&mut self.slots, zeros(size));
         for occupant in occupants.into_iter().filter(|&occupant| occupant != 0) {
             let mut place = self.place((self.key)(occupant as usize - 1));
             for _ in 0..Self::MAX_PROBES {

@@ -1,11 +1,13 @@
 //! The shaded vertices of a draw batch: one list for all sub-draws, filled by workers in slices.
 //!
 //! Positions are read by geometry alone, so their memory serves one group of sub-draws after the
-//! other; tiles read varyings, which are kept for the whole batch.
+//! other; tiles read varyings, which are kept for the whole batch, in a list for each group: one
+//! list would be copied to more memory with each group.
 //!
 //! *Space* window; clip where positions are kept.
 
 use crate::bounds::primitives::{VertexRef, WindowVertex};
+use estampe_simd::advise_huge_pages;
 
 /// A window x that says "this vertex must be clipped"; no snapped coordinate reaches it.
 pub(crate) const NEEDS_CLIPPING: i32 = i32::MIN;
@@ -19,8 +21,8 @@ pub(crate) struct ShadedVertices {
     window: Vec<PackedVertex>,
     /// Clip-space positions as bits: of points, lines and outlines, which all need them.
     clip: Vec<[u32; 4]>,
-    /// The varyings' scalars of each vertex.
-    varyings: Vec<f32>,
+    /// By group of the batch: the varyings' scalars of each vertex.
+    varyings: Vec<Vec<f32>>,
     /// Point sizes in pixels, where points are drawn.
     point_size: Vec<f32>,
 }
@@ -28,11 +30,13 @@ pub(crate) struct ShadedVertices {
 /// The place of a sub-draw's vertices in those of its batch, and what is kept of them.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct VertexSpan {
-    /// The first vertex, counted in the group of sub-draws whose geometry is done together.
+    /// The number of the group of sub-draws whose geometry is done together, counted in the batch.
+    pub(crate) group: usize,
+    /// The first vertex, counted in the group.
     pub(crate) first: usize,
     /// Vertices of all instances.
     pub(crate) count: usize,
-    /// The first scalar of the varyings, counted in the batch.
+    /// The first scalar of the varyings, counted in the group.
     pub(crate) first_varying: usize,
     /// Scalars of a vertex's varyings.
     pub(crate) varying_scalars: usize,
@@ -43,9 +47,10 @@ pub(crate) struct VertexSpan {
 }
 
 impl VertexSpan {
-    /// The span that follows this one, of no vertices.
+    /// The span that follows this one in its group, of no vertices.
     pub(crate) fn following(&self) -> Self {
         Self {
+            group: self.group,
             first: self.first + self.count,
             first_varying: self.first_varying + self.count * self.varying_scalars,
             ..Self::default()
@@ -95,18 +100,16 @@ impl ShadedVertices {
     /// overwritten, but for their varyings.
     pub(crate) fn resize_for<'s>(&mut self, spans: impl Iterator<Item = &'s VertexSpan>) {
         let (mut end, mut has_positions, mut has_sizes) = (VertexSpan::default(), false, false);
-        let mut kept = None;
         for span in spans {
-            kept = kept.or(Some(span.first_varying));
             end = span.following();
             has_positions |= span.keeps_clip_positions;
             has_sizes |= span.has_point_sizes;
         }
         grow(&mut self.window, end.first, [0; 4]);
-        match kept {
-            Some(1..) => grow_on(&mut self.varyings, end.first_varying, 0.0),
-            _ => grow(&mut self.varyings, end.first_varying, 0.0),
+        if self.varyings.len() <= end.group {
+            self.varyings.resize_with(end.group + 1, Vec::new);
         }
+        grow(&mut self.varyings[end.group], end.first_varying, 0.0);
         let positions = if has_positions { end.first } else { 0 };
         grow(&mut self.clip, positions, [0; 4]);
         grow(
@@ -126,11 +129,11 @@ impl ShadedVertices {
         // Lists that are kept for no span may be of any length.
         let has_positions = spans.clone().any(|span| span.keeps_clip_positions);
         let has_sizes = spans.clone().any(|span| span.has_point_sizes);
-        let first_varying = spans.clone().next().map_or(0, |span| span.first_varying);
+        let group = spans.clone().next().map_or(0, |span| span.group);
         let mut rest = ShadedSlice {
             window: &mut self.window,
             clip: &mut self.clip,
-            varyings: &mut self.varyings[first_varying..],
+            varyings: self.varyings.get_mut(group).map_or(&mut [], |list| list),
             point_size: &mut self.point_size,
         };
         for (sub_draw, span) in spans.enumerate() {
@@ -178,7 +181,7 @@ impl ShadedVertices {
             } else {
                 &[]
             },
-            varyings: &self.varyings[span.first_varying..][..varyings],
+            varyings: &self.varyings[span.group][span.first_varying..][..varyings],
             varying_scalars: span.varying_scalars,
             point_size: if span.has_point_sizes {
                 &self.point_size[span.first..][..span.count]
@@ -228,14 +231,8 @@ fn grow<T: Clone>(list: &mut Vec<T>, len: usize, zero: T) {
     if list.capacity() < len {
         *list = Vec::new();
         *list = vec![zero; len];
+        advise_huge_pages(list);
     } else if list.len() < len {
-        list.resize(len, zero);
-    }
-}
-
-/// Makes a list at least so long, and keeps what it holds.
-fn grow_on<T: Clone>(list: &mut Vec<T>, len: usize, zero: T) {
-    if list.len() < len {
         list.resize(len, zero);
     }
 }
@@ -274,12 +271,10 @@ mod tests {
     #[test]
     fn varyings_of_the_groups_before_are_kept() {
         let mut vertices = ShadedVertices::default();
-        let mut span = VertexSpan::default();
         let mut spans = Vec::new();
-        for (group, count) in (1..).zip([3, 40, 500]) {
-            span = VertexSpan {
-                first: 0,
-                first_varying: span.following().first_varying,
+        for (group, count) in [3, 500, 40].into_iter().enumerate() {
+            let span = VertexSpan {
+                group,
                 count,
                 varying_scalars: 2,
                 ..VertexSpan::default()

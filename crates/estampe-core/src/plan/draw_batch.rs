@@ -22,8 +22,9 @@ pub(crate) struct DrawBatch<'a> {
     /// Vertices and primitives of the sub-draws.
     pub(super) vertices: usize,
     pub(super) primitives: usize,
-    /// The first sub-draw of the group at hand.
+    /// The number of the group at hand, and its first sub-draw.
     group: usize,
+    first_of_group: usize,
 }
 
 impl<'a> DrawBatch<'a> {
@@ -42,13 +43,18 @@ impl<'a> DrawBatch<'a> {
         self.sub_draws.clear();
         self.invisible_primitives = 0;
         (self.vertices, self.primitives) = (0, 0);
+        (self.group, self.first_of_group) = (0, 0);
     }
 
     /// Begins a group of sub-draws, whose vertices in the window take the place of those of the
     /// group before. Gives the number of its first sub-draw.
     pub(super) fn begin_group(&mut self) -> usize {
-        self.group = self.sub_draws.len();
-        self.group
+        // The group before may have got no sub-draws.
+        if self.sub_draws.len() > self.first_of_group {
+            self.group += 1;
+            self.first_of_group = self.sub_draws.len();
+        }
+        self.first_of_group
     }
 
     /// The number of a draw's state, which is resolved unless the last one is the same; `None`
@@ -68,11 +74,12 @@ impl<'a> DrawBatch<'a> {
     /// Adds a sub-draw, after whose vertices lie those of the one before.
     pub(super) fn push(&mut self, mut sub_draw: SubDraw<'a>) {
         let interface = sub_draw.draw.pipeline.interface();
-        let last = self.sub_draws.last();
-        let mut after = last.map_or_else(VertexSpan::default, |last| last.span.following());
-        if self.group == self.sub_draws.len() {
-            after.first = 0;
-        }
+        let of_group = &self.sub_draws[self.first_of_group..];
+        let begin = VertexSpan {
+            group: self.group,
+            ..VertexSpan::default()
+        };
+        let after = of_group.last().map_or(begin, |last| last.span.following());
         sub_draw.span = VertexSpan {
             count: sub_draw.total_vertices(),
             varying_scalars: interface.varyings.len(),

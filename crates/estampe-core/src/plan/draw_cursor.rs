@@ -310,17 +310,18 @@ mod tests {
         let mut batches = 0;
         loop {
             batch.clear();
-            let (mut varying, mut sub_draws) = (0, 0);
+            let (mut groups, mut sub_draws) = (0, 0);
             while let Some(group) = cursor.next_group(&executor, &target, &mut batch) {
                 assert_eq!(group.start, sub_draws);
                 sub_draws = group.end;
                 let mut vertex = 0;
                 for span in batch.spans(group) {
-                    assert_eq!((span.first, span.first_varying), (vertex, varying));
+                    let places = (span.group, span.first, span.first_varying);
+                    assert_eq!(places, (groups, vertex, 2 * vertex));
                     assert!(vertex < GROUP_BUDGET, "a group that was full");
                     vertex += span.count;
-                    varying += span.count * 2;
                 }
+                groups += 1;
             }
             assert_eq!(batch.sub_draws.len(), sub_draws);
             if sub_draws == 0 {

@@ -2,6 +2,7 @@
 
 use super::faces::{Faces, PIECE};
 use super::unit_or_zero;
+use crate::zeros::zeros;
 use estampe_scene::{Mesh, Workers, pieces};
 use glam::Vec3;
 
@@ -174,7 +175,7 @@ fn smooth_normals(
             |[least, greatest]: [u32; 2], &point: &u32| [least.min(point), greatest.max(point)];
         triangles.as_flattened().iter().fold([u32::MAX, 0], extend)
     });
-    let mut sums = vec![[0.0; 3]; point_count];
+    let mut sums: Vec<[f32; 3]> = zeros(point_count);
     workers.map(sums.chunks_mut(range).enumerate(), |(index, sums)| {
         let first = index * range;
         let pieces = triangles.chunks(PIECE).zip(&extremes).enumerate();

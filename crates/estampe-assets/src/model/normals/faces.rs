@@ -1,5 +1,6 @@
 //! The unit normal and the area of every triangle.
 
+use crate::zeros::zeros;
 use estampe_scene::{Bounds, Mesh, Workers};
 use glam::{DVec3, Vec3};
 
@@ -65,7 +66,7 @@ pub(super) fn all(meshes: &[Mesh], workers: Workers) -> Faces {
     let exponent = if size > 0.0 { libm::frexp(size).1 } else { 0 };
     let scale = libm::ldexp(1.0, -2 * exponent);
     let count = meshes.iter().map(|mesh| mesh.triangles.len()).sum();
-    let mut faces = vec![[0.0; 4]; count];
+    let mut faces: Vec<[f32; 4]> = zeros(count);
     let mut rest = faces.as_mut_slice();
     let mut parts = Vec::new();
     for mesh in meshes {

@@ -2,6 +2,7 @@
 
 use super::header::{Element, Kind, Scalar};
 use super::values::NO_VERTEX;
+use crate::zeros::zeros;
 use estampe_scene::Workers;
 
 /// The length 3 as a byte, and three indices.
@@ -47,7 +48,7 @@ pub(super) fn read(
     if rows.first().is_none_or(|row| decode(row).is_none()) {
         return Vec::new();
     }
-    let mut triangles = vec![[0; 3]; rows.len()];
+    let mut triangles = zeros(rows.len());
     let parts = triangles.chunks_mut(PIECE).zip(rows.chunks(PIECE));
     let good_rows = workers.map(parts, |(triangles, rows)| {
         let mut good = 0;

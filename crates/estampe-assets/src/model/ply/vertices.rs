@@ -5,6 +5,7 @@ use super::values::{Fault, Values};
 use crate::AssetError;
 use crate::model::normals::unit_or_zero;
 use crate::model::srgb::{linear_from_srgb, linear_from_srgb8};
+use crate::zeros::zeros;
 use estampe_scene::{Mesh, Workers};
 use glam::{Vec2, Vec3};
 
@@ -170,11 +171,11 @@ fn read_at_once<V: Values>(plan: &Plan, readers: Vec<V>, mesh: &mut Mesh, worker
         .map(|reader| reader.len_bytes() / row_bytes)
         .sum();
     let room = |is_there: bool| if is_there { count } else { 0 };
-    // Plain numbers: vectors of them start as zeroed memory that each thread is first to touch.
-    let mut positions = vec![[0.0; 3]; count];
-    let mut normals = vec![[0.0; 3]; room(plan.has_normals())];
-    let mut uvs = vec![[0.0; 2]; room(plan.has_uvs())];
-    let mut colors = vec![[0.0; 4]; room(plan.has_colors())];
+    // Plain numbers: vectors of them start as zeroed memory.
+    let mut positions: Vec<[f32; 3]> = zeros(count);
+    let mut normals: Vec<[f32; 3]> = zeros(room(plan.has_normals()));
+    let mut uvs: Vec<[f32; 2]> = zeros(room(plan.has_uvs()));
+    let mut colors: Vec<[f32; 4]> = zeros(room(plan.has_colors()));
     let parts = readers.into_iter().zip(
         positions
             .chunks_mut(PIECE)
