@@ -73,6 +73,10 @@ pub struct Statistics {
     /// varyings.
     #[doc(hidden)]
     pub colors_kept: u64,
+    /// Fragments of one colour whose new codes were lines through the stored ones. They depend on
+    /// the SIMD level.
+    #[doc(hidden)]
+    pub fragments_blended_by_lines: u64,
     /// Runs that are drawn in order whose fragments shared the queue with those of the run before.
     #[doc(hidden)]
     pub queues_kept: u64,
@@ -161,6 +165,7 @@ impl std::ops::AddAssign for Statistics {
         self.rectangles_in_order += other.rectangles_in_order;
         self.boxes_in_order += other.boxes_in_order;
         self.colors_kept += other.colors_kept;
+        self.fragments_blended_by_lines += other.fragments_blended_by_lines;
         self.queues_kept += other.queues_kept;
         self.triangles_gathered_in_tiles += other.triangles_gathered_in_tiles;
         self.packets_failing_depth += other.packets_failing_depth;

@@ -291,7 +291,7 @@ impl<C: Copy> Target<'_, C> {
 }
 
 #[inline(always)]
-fn load<S: Lanes>(s: S, color: &[Packet<f32>; 4]) -> ColorLanes<S> {
+pub(super) fn load<S: Lanes>(s: S, color: &[Packet<f32>; 4]) -> ColorLanes<S> {
     let load = |packet: &Packet<f32>| f32x16::load_array_ref(s, &packet.0);
     let [r, g, b, a] = color;
     [load(r), load(g), load(b), load(a)]
@@ -299,7 +299,11 @@ fn load<S: Lanes>(s: S, color: &[Packet<f32>; 4]) -> ColorLanes<S> {
 
 /// Colours in a format's range; NaN is 0.
 #[inline(always)]
-fn clamp<S: Lanes>(s: S, color: ColorLanes<S>, range: Option<[f32; 2]>) -> ColorLanes<S> {
+pub(super) fn clamp<S: Lanes>(
+    s: S,
+    color: ColorLanes<S>,
+    range: Option<[f32; 2]>,
+) -> ColorLanes<S> {
     let Some([low, high]) = range else {
         return color;
     };

@@ -21,4 +21,6 @@ pub(crate) mod logic;
 
 pub(crate) mod color_writer;
 
+pub(crate) mod solid_blend;
+
 pub(crate) mod source_over;

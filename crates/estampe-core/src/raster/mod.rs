@@ -35,6 +35,8 @@ pub(crate) mod pixel_box;
 
 pub(crate) mod clip_masks;
 
+pub(crate) mod packet_masks;
+
 pub(crate) mod conservative;
 
 pub(crate) mod line;

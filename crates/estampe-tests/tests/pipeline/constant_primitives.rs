@@ -1,10 +1,12 @@
 //! Triangles over which nothing varies: one packet is shaded for all of them that follow each other
 //! and have the same varyings.
 
-use estampe_tests::geometry::{Style, triangles};
+use estampe_simd::Level;
+use estampe_tests::geometry::{Style, Vertex, triangles};
 use estampe_tests::shaders::{Colored, FlatColored, Halved, Probe};
 use estampe_tests::{Case, CaseDraw, ExpectedPaths, Random, TestShader, check_paths};
-use estampe_types::state::{BlendState, CompareFunction, DepthState};
+use estampe_types::TextureFormat;
+use estampe_types::state::{BlendState, CompareFunction, DepthState, ScissorRect};
 
 fn shader(random: &mut Random) -> TestShader {
     match random.below(4) {
@@ -50,9 +52,50 @@ fn case(random: &mut Random) -> Case {
     case
 }
 
+/// The fan of a polygon around a place, almost always convex, from any of its corners on and
+/// towards either side; sometimes a triangle is left out.
+fn polygon(random: &mut Random) -> Vec<Vertex> {
+    let [x, y, width, height] = random.four(-1.0, 1.0);
+    let corners = 3 + random.below(14);
+    let values = random.four(0.0, 1.0);
+    let corner = |corner: u32| {
+        // A rational point of a quarter of a circle, turned.
+        let (quarter, along) = (4 * corner / corners % 4, 4 * corner % corners);
+        let t = along as f32 / corners as f32;
+        let [across, down] = [1.0 - t * t, 2.0 * t].map(|at| at / (1.0 + t * t));
+        let [across, down] = match quarter {
+            0 => [across, down],
+            1 => [-down, across],
+            2 => [-across, -down],
+            _ => [down, -across],
+        };
+        Vertex {
+            position: [x + across * width, y + down * height, 0.5, 1.0],
+            values,
+        }
+    };
+    let first = random.below(corners);
+    let mut fan: Vec<_> = (first + 1..first + corners - 1)
+        .map(|at| [first, at, at + 1].map(corner))
+        .collect();
+    if random.once_in(3) {
+        fan.reverse();
+    }
+    if random.once_in(4) {
+        let out = random.below(corners - 2);
+        fan.remove(out as usize);
+    }
+    fan.into_iter().flatten().collect()
+}
+
 /// Fans and lists of triangles of one colour, between others that lie over and under them.
 fn panels(random: &mut Random) -> Case {
     let mut case = Case::new([100, 70], random.pick(&[1, 1, 1, 4, 2]));
+    case.format = random.pick(&[
+        Some(TextureFormat::Rgba8Unorm),
+        Some(TextureFormat::Bgra8Unorm),
+        Some(TextureFormat::Rgba8UnormSrgb),
+    ]);
     let mut draw_shader = shader(random);
     for _ in 0..3 {
         let mut vertices = Vec::new();
@@ -75,6 +118,9 @@ fn panels(random: &mut Random) -> Case {
                 }
             }
             vertices.extend(run);
+            for _ in 0..random.below(4) {
+                vertices.extend(polygon(random));
+            }
         }
         if random.once_in(3) {
             draw_shader = shader(random);
@@ -89,6 +135,13 @@ fn panels(random: &mut Random) -> Case {
             compare: CompareFunction::LessEqual,
             write_enabled: random.once_in(2),
         });
+        draw.scissor = random.once_in(3).then_some(ScissorRect {
+            x: 9,
+            y: 14,
+            width: 80,
+            height: 50,
+        });
+        draw.is_counted = random.once_in(8);
         case.draws.push(draw);
     }
     case
@@ -97,10 +150,18 @@ fn panels(random: &mut Random) -> Case {
 /// Rows: O5, V4.
 #[test]
 fn triangles_of_one_colour_are_gathered() {
-    let statistics = check_paths("gathered_primitives", 32, ExpectedPaths::default(), panels);
+    let statistics = check_paths("gathered_primitives", 48, ExpectedPaths::default(), panels);
     assert!(
         statistics.triangles_gathered > 0,
         "no triangle's pixels were written with another's"
+    );
+    let lines = statistics.fragments_blended_by_lines;
+    let has_wide = Level::all_available()
+        .iter()
+        .any(|level| !level.is_scalar());
+    assert!(
+        !has_wide || lines > 100_000,
+        "{lines} fragments were blended by lines"
     );
     let kept = statistics.colors_kept;
     assert!(kept > 100, "{kept} colours were kept");

@@ -44,6 +44,17 @@ impl<const N: usize> FragmentQueue<N> {
         &self.colors[..self.colors_each * 4]
     }
 
+    /// Of these colours that of a target, or the varyings that are passed on as it.
+    #[inline(always)]
+    pub(crate) fn solid_color(&self, target: usize) -> Option<&[Packet<f32>; 4]> {
+        let colors = if self.color_passthrough {
+            &self.varyings
+        } else {
+            &self.colors
+        };
+        colors.get(target * 4..)?.first_chunk()
+    }
+
     /// Sets colours that [`FragmentQueue::solid_colors`] gave before, in place of shading.
     #[inline(always)]
     pub(crate) fn set_solid_colors(&mut self, colors: &[Packet<f32>]) {
@@ -57,8 +68,9 @@ impl<const N: usize> FragmentQueue<N> {
     /// Adds a packet that has the colours of [`FragmentQueue::shade_solid`]. The queue must not be
     /// full.
     #[inline(always)]
-    pub(crate) fn push_solid(&mut self, packet: u16, masks: [u16; N]) {
-        self.take_slot(Place::Packet(packet), masks, 0);
+    #[expect(clippy::cast_possible_truncation, reason = "a tile has 256 packets")]
+    pub(crate) fn push_solid(&mut self, packet: usize, masks: [u16; N]) {
+        self.take_slot(Place::Packet(packet as u16), masks, 0);
     }
 
     /// Removes the packets, but keeps the colours of [`FragmentQueue::shade_solid`].

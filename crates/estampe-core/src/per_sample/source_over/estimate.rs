@@ -222,7 +222,7 @@ fn uncertain<S: Lanes, const CHANNELS: usize>(
 
 /// The raised codes of RGBA8 texels.
 #[inline(always)]
-pub(super) fn raised_codes<S: Lanes>(s: S, texels: u32x16<S>) -> [u32x16<S>; 4] {
+pub(in crate::per_sample) fn raised_codes<S: Lanes>(s: S, texels: u32x16<S>) -> [u32x16<S>; 4] {
     let raise = |code: u32x16<S>| (code & u32x16::splat(s, CODE)) | u32x16::splat(s, RAISED);
     [
         raise(texels << 15),
@@ -234,7 +234,7 @@ pub(super) fn raised_codes<S: Lanes>(s: S, texels: u32x16<S>) -> [u32x16<S>; 4] 
 
 /// RGBA8 texels of estimates, or of raised codes.
 #[inline(always)]
-pub(super) fn texels<S: Lanes>(s: S, of: &[u32x16<S>; 4]) -> u32x16<S> {
+pub(in crate::per_sample) fn texels<S: Lanes>(s: S, of: &[u32x16<S>; 4]) -> u32x16<S> {
     let byte = |of: u32x16<S>, mask: u32| of & u32x16::splat(s, mask);
     byte(of[0] >> 15, 0xFF)
         | byte(of[1] >> 7, 0xFF00)

@@ -17,6 +17,7 @@ mod estimate;
 mod exact;
 mod layers;
 
+pub(super) use estimate::{raised_codes, texels};
 pub(crate) use layers::Layers;
 
 use super::compare::compare;

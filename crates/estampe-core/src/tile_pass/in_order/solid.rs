@@ -9,72 +9,55 @@
 //! before: it is written first if it has a fragment at one of the pixels; otherwise it may wait.
 
 use super::InOrder;
+use super::solid_colors::Blending;
 use crate::fragment::queue::FragmentQueue;
-use crate::raster::MAX_PACKETS;
+use crate::per_sample::solid_blend::SolidBlend;
+use crate::raster::packet_masks::PacketMasks;
+use crate::statistics::Statistics;
 use crate::tile_pass::write_colors;
 use estampe_simd::LANES;
 
+/// So many packets are worth to ask how a colour is blended that is seen for the first time.
+const PACKETS_TO_ASK: u32 = 32;
+
 /// Gathered coverage of triangles that have one colour.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(super) struct Solid<const N: usize> {
-    /// The varyings of all fragments, and whether the triangles face the viewer.
-    varyings: Vec<f32>,
-    front: bool,
-    /// By packet and sample: the gathered lanes.
-    masks: [[u16; N]; MAX_PACKETS],
-    /// The packets in which something is gathered, one bit each.
-    packets: [u64; MAX_PACKETS / 64],
+    shown: SolidInputs,
+    covered: PacketMasks<N>,
 }
 
-impl<const N: usize> Default for Solid<N> {
-    fn default() -> Self {
-        Self {
-            varyings: Vec::new(),
-            front: false,
-            masks: [[0; N]; MAX_PACKETS],
-            packets: [0; MAX_PACKETS / 64],
-        }
-    }
+/// What the colour of primitives depends on over which nothing varies: the varyings of all
+/// fragments, and whether the primitives face the viewer.
+#[derive(Debug, Default)]
+pub(super) struct SolidInputs {
+    pub(super) varyings: Vec<f32>,
+    pub(super) front: bool,
 }
 
-impl<const N: usize> Solid<N> {
+impl SolidInputs {
     #[inline(always)]
-    fn is_empty(&self) -> bool {
-        self.packets == [0; MAX_PACKETS / 64]
-    }
-
-    #[inline(always)]
-    fn has_varyings(&self, varyings: &[f32], front: bool) -> bool {
+    pub(super) fn are(&self, varyings: &[f32], front: bool) -> bool {
         let pairs = self.varyings.iter().zip(varyings);
         self.front == front
             && self.varyings.len() == varyings.len()
             && pairs.fold(true, |all, (a, b)| all & (a.to_bits() == b.to_bits()))
     }
 
-    /// Gives each packet with gathered lanes to a function, in the order of their numbers, and
-    /// forgets them.
     #[inline(always)]
-    fn take_each(&mut self, mut take: impl FnMut(u16, [u16; N])) {
-        for (word, packets) in self.packets.iter_mut().enumerate() {
-            while *packets != 0 {
-                let packet = word * 64 + packets.trailing_zeros() as usize;
-                *packets &= *packets - 1;
-                let masks = std::mem::replace(&mut self.masks[packet % MAX_PACKETS], [0; N]);
-                #[expect(clippy::cast_possible_truncation, reason = "below MAX_PACKETS")]
-                take(packet as u16, masks);
-            }
-        }
+    pub(super) fn set(&mut self, varyings: &[f32], front: bool) {
+        self.varyings.clear();
+        self.varyings.extend_from_slice(varyings);
+        self.front = front;
     }
+}
 
+impl<const N: usize> Solid<N> {
     /// Returns true if a packet of the queue has a fragment at a gathered pixel.
     #[inline(always)]
     fn overlaps(&self, queue: &FragmentQueue<N>) -> bool {
-        let gathered = |packet: usize| {
-            let masks = &self.masks[packet % MAX_PACKETS];
-            masks.iter().fold(0, |any, mask| any | mask)
-        };
         let mut queued = queue.queued();
-        queued.any(|(place, pixels)| place.overlaps(pixels, gathered))
+        queued.any(|(place, pixels)| place.overlaps(pixels, |packet| self.covered.any(packet)))
     }
 }
 
@@ -84,37 +67,24 @@ impl<const N: usize> InOrder<'_, '_, '_, '_, N> {
     pub(super) fn gather(&mut self, varyings: &[f32], front: bool) {
         let scratch = &self.scratch.in_order;
         let (solid, items) = (&scratch.solid, scratch.list.items());
-        let is_same = solid.has_varyings(varyings, front);
-        let overlaps = items.iter().fold(0, |both, item| {
-            let gathered = &solid.masks[usize::from(item.packet) % MAX_PACKETS];
-            let pairs = gathered.iter().zip(item.masks);
-            pairs.fold(both, |both, (gathered, mask)| both | gathered & mask)
-        });
-        if !is_same || overlaps != 0 {
+        let is_same = solid.shown.are(varyings, front);
+        if !is_same || solid.covered.overlaps(items) {
             self.end_solid();
-        } else if !solid.is_empty() {
+        } else if !solid.covered.is_empty() {
             self.scratch.statistics.triangles_gathered += 1;
         }
         let scratch = &mut self.scratch.in_order;
         let solid = &mut scratch.solid;
         if !is_same {
-            solid.varyings.clear();
-            solid.varyings.extend_from_slice(varyings);
-            solid.front = front;
+            solid.shown.set(varyings, front);
         }
-        for item in scratch.list.items() {
-            let packet = usize::from(item.packet) % MAX_PACKETS;
-            solid.packets[packet / 64] |= 1 << (packet % 64);
-            for (gathered, mask) in solid.masks[packet].iter_mut().zip(item.masks) {
-                *gathered |= mask;
-            }
-        }
+        solid.covered.add(scratch.list.items());
     }
 
     /// Shades and writes what is gathered, before something else is drawn.
     #[inline(always)]
     pub(super) fn end_solid(&mut self) {
-        if !self.scratch.in_order.solid.is_empty() {
+        if !self.scratch.in_order.solid.covered.is_empty() {
             self.write_solid();
         }
     }
@@ -124,22 +94,65 @@ impl<const N: usize> InOrder<'_, '_, '_, '_, N> {
         if self.scratch.in_order.solid.overlaps(&self.scratch.queue) {
             self.flush();
         }
+        match self.blend_solid() {
+            Blending::Line(line) => self.write_line(&line),
+            Blending::Unknown | Blending::Formula => self.write_shaded_solid(),
+        }
+        self.scratch.solid_queue.clear();
+    }
+
+    /// How the gathered colour is blended. Unless that is a line, the colour is in its queue.
+    fn blend_solid(&mut self) -> Blending {
         let (plan, level) = (self.work.plan, self.work.level);
         let scratch = &mut *self.scratch;
-        let (solid, queue) = (&mut scratch.in_order.solid, &mut scratch.solid_queue);
-        let (varyings, front) = (solid.varyings.as_slice(), solid.front);
+        let (solid, queue) = (&scratch.in_order.solid, &mut scratch.solid_queue);
+        let (varyings, front) = (solid.shown.varyings.as_slice(), solid.shown.front);
         let kept = &mut scratch.in_order.solid_colors;
         let (place, found) = kept.find(varyings, front);
-        if let Some(color) = found {
-            queue.set_solid_colors(color);
+        let mut is_worth_asking = solid.covered.packets() >= PACKETS_TO_ASK;
+        if let Some(found) = found {
             scratch.statistics.colors_kept += 1;
+            if let Blending::Line(_) = found.blending {
+                return found.blending;
+            }
+            queue.set_solid_colors(found.color);
+            if let Blending::Formula = found.blending {
+                return found.blending;
+            }
+            is_worth_asking = true;
         } else {
             queue.shade_solid(level, plan.pipeline, plan.bindings, (varyings, front));
             kept.keep(place, (varyings, front), queue.solid_colors());
         }
-        let (mut fragments, mut packets) = (0, 0);
+        let targets = plan.pipeline.color_targets();
+        let mut blending = Blending::Unknown;
+        if is_worth_asking && let [target] = targets {
+            let color = queue.solid_color(target.output);
+            let line = color.and_then(|color| SolidBlend::new(level, target, color));
+            blending = line.map_or(Blending::Formula, Blending::Line);
+            kept.keep_blending(place, blending);
+        }
+        blending
+    }
+
+    /// Writes what is gathered by a line.
+    fn write_line(&mut self, line: &SolidBlend) {
+        let (samples, level) = (self.samples.count(), self.work.level);
+        let covered = &mut self.scratch.in_order.solid.covered;
+        let fragments = line.write(level, covered, samples, self.job.colors[0]);
+        let statistics = &mut self.scratch.statistics;
+        statistics.fragments_blended_by_lines += fragments;
+        count_solid(statistics, fragments);
+    }
+
+    /// Writes what is gathered with the colour in its queue.
+    fn write_shaded_solid(&mut self) {
+        let (plan, level) = (self.work.plan, self.work.level);
+        let scratch = &mut *self.scratch;
+        let queue = &mut scratch.solid_queue;
         let colors = &mut self.job.colors;
-        solid.take_each(|packet, masks| {
+        let mut fragments = 0;
+        scratch.in_order.solid.covered.take_each(|packet, masks| {
             if queue.is_full() {
                 write_colors(plan, level, &queue.batch(), colors);
                 queue.empty_solid();
@@ -147,14 +160,14 @@ impl<const N: usize> InOrder<'_, '_, '_, '_, N> {
             queue.push_solid(packet, masks);
             let any = masks.iter().fold(0, |any, mask| any | mask);
             fragments += u64::from(any.count_ones());
-            packets += 1;
         });
         write_colors(plan, level, &queue.batch(), colors);
-        queue.clear();
-        let statistics = &mut scratch.statistics;
-        statistics.fragments_shaded += fragments;
-        if packets > 1 {
-            statistics.fragments_of_shared_colors += fragments.saturating_sub(LANES as u64);
-        }
+        count_solid(&mut scratch.statistics, fragments);
     }
+}
+
+/// Counts fragments of one colour.
+fn count_solid(statistics: &mut Statistics, fragments: u64) {
+    statistics.fragments_shaded += fragments;
+    statistics.fragments_of_shared_colors += fragments.saturating_sub(LANES as u64);
 }

@@ -3,8 +3,9 @@
 //! A panel lies in several tiles, and in each of them its colour would be shaded once, alone: a
 //! call of the program for one packet costs as much as for several. A colour depends on the
 //! varyings, the face, and what the draw binds, which does not change in a pass unless a shader
-//! stores.
+//! stores. With a colour its [blending](SolidBlend) is kept.
 
+use crate::per_sample::solid_blend::SolidBlend;
 use estampe_simd::Packet;
 
 /// The colours that are kept, at most. Others take their places.
@@ -22,6 +23,25 @@ pub(super) struct SolidColors {
     /// By place: the keys, and the colours. Places that no key belongs to hold [`NONE`].
     keys: Vec<u32>,
     colors: Vec<Packet<f32>>,
+    blending: Vec<Blending>,
+}
+
+/// How a colour is blended into the draw's target.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) enum Blending {
+    /// Nobody asked.
+    #[default]
+    Unknown,
+    Line(SolidBlend),
+    /// By the formula.
+    Formula,
+}
+
+/// A colour that is kept.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct KeptColor<'a> {
+    pub(super) color: &'a [Packet<f32>],
+    pub(super) blending: Blending,
 }
 
 /// The face of a key that is none.
@@ -49,11 +69,12 @@ impl SolidColors {
         self.keys.clear();
         self.keys.resize(MOST * self.words, NONE);
         self.colors.resize(MOST * packets, Packet::default());
+        self.blending.resize(MOST, Blending::Unknown);
     }
 
     /// The place of a colour, and the colour if it is known.
     #[inline(always)]
-    pub(super) fn find(&self, varyings: &[f32], front: bool) -> (KeyPlace, Option<&[Packet<f32>]>) {
+    pub(super) fn find(&self, varyings: &[f32], front: bool) -> (KeyPlace, Option<KeptColor<'_>>) {
         let mut hash = u64::from(front);
         for varying in varyings {
             hash = (hash ^ u64::from(varying.to_bits())).wrapping_mul(0x9E37_79B9_7F4A_7C15);
@@ -69,8 +90,11 @@ impl SolidColors {
                 .iter()
                 .zip(varyings)
                 .all(|(a, b)| *a == b.to_bits());
-        let color = is_found.then(|| &self.colors[place * self.packets..][..self.packets]);
-        (KeyPlace(place), color)
+        let found = is_found.then(|| KeptColor {
+            color: &self.colors[place * self.packets..][..self.packets],
+            blending: self.blending[place],
+        });
+        (KeyPlace(place), found)
     }
 
     /// Keeps a colour in the place of its key.
@@ -92,6 +116,14 @@ impl SolidColors {
             *to = varying.to_bits();
         }
         self.colors[place * self.packets..][..self.packets].copy_from_slice(color);
+        self.blending[place] = Blending::Unknown;
+    }
+
+    /// Keeps the blending of the colour that was kept or found in a place.
+    pub(super) fn keep_blending(&mut self, KeyPlace(place): KeyPlace, blending: Blending) {
+        if self.sub_draw.is_some() {
+            self.blending[place] = blending;
+        }
     }
 }
 
@@ -117,7 +149,7 @@ mod tests {
             let (place, found) = colors.find(&varyings, number % 2 == 0);
             match found {
                 Some(found) => {
-                    assert_eq!(found, color);
+                    assert_eq!(found.color, color);
                     kept += 1;
                 }
                 None => colors.keep(place, (&varyings, number % 2 == 0), &color),
