@@ -98,6 +98,10 @@ pub struct Statistics {
     /// Triangles whose pixels were written together with those of another one before, which had the
     /// same colour everywhere, counted once for each tile that they touch.
     pub triangles_gathered: u64,
+    /// Triangles of one colour that shared sides and were covered as one polygon, once for each tile.
+    /// They depend on the SIMD level.
+    #[doc(hidden)]
+    pub triangles_in_fans: u64,
     /// Runs of opaque triangles, tile by tile, whose visible samples were shaded at the run's end:
     /// hidden fragments are not shaded. None at the scalar level.
     pub visibility_runs: u64,
@@ -171,6 +175,7 @@ impl std::ops::AddAssign for Statistics {
         self.packets_failing_depth += other.packets_failing_depth;
         self.triangles_set_up_in_lanes += other.triangles_set_up_in_lanes;
         self.triangles_gathered += other.triangles_gathered;
+        self.triangles_in_fans += other.triangles_in_fans;
         self.packets_joined += other.packets_joined;
         self.fragments_by_pixels += other.fragments_by_pixels;
         self.quads_across_triangles += other.quads_across_triangles;

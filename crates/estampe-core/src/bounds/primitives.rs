@@ -179,6 +179,17 @@ impl PackedTriangle {
         a == b && a == c
     }
 
+    /// The corners, clockwise in a window with y down.
+    #[inline(always)]
+    pub(crate) fn clockwise_corners(&self) -> [[i32; 2]; 3] {
+        let corner = |corner: usize| [self.x[corner], self.y[corner]];
+        if doubled_area([self.x, self.y]) > 0 {
+            [corner(0), corner(1), corner(2)]
+        } else {
+            [corner(0), corner(2), corner(1)]
+        }
+    }
+
     /// The triangle with all that was set up.
     #[inline(always)]
     pub(crate) fn unpack(&self) -> Triangle {

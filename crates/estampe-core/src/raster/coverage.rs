@@ -112,6 +112,14 @@ impl<const N: usize> CoverageList<N> {
         }
     }
 
+    /// Adds an item if it covers anything; there is no branch on it.
+    #[inline(always)]
+    pub(super) fn push_covered(&mut self, item: Covered<N>) {
+        debug_assert!(self.covered.len < MAX_PACKETS, "a packet comes once");
+        self.covered.items[self.covered.len % MAX_PACKETS] = item;
+        self.covered.len += usize::from(item.any() != 0);
+    }
+
     #[inline(always)]
     pub(crate) fn items(&self) -> &[Covered<N>] {
         &self.covered.items[..self.covered.len]

@@ -21,6 +21,8 @@ pub(crate) mod triangle;
 
 mod walk;
 
+pub(crate) mod convex;
+
 pub(crate) mod parts;
 
 pub(crate) mod small;

@@ -113,7 +113,7 @@ impl<const N: usize> Edge<N> {
         clippy::cast_possible_truncation,
         reason = "see the head: an edge that crosses fits"
     )]
-    fn new(
+    pub(super) fn new(
         [ax, ay]: [i32; 2],
         [bx, by]: [i32; 2],
         tile: TileShape,

@@ -155,13 +155,16 @@ fn triangles_of_one_colour_are_gathered() {
         statistics.triangles_gathered > 0,
         "no triangle's pixels were written with another's"
     );
-    let lines = statistics.fragments_blended_by_lines;
+    let (fans, lines) = (
+        statistics.triangles_in_fans,
+        statistics.fragments_blended_by_lines,
+    );
     let has_wide = Level::all_available()
         .iter()
         .any(|level| !level.is_scalar());
     assert!(
-        !has_wide || lines > 100_000,
-        "{lines} fragments were blended by lines"
+        !has_wide || fans > 1000 && lines > 100_000,
+        "{fans} triangles were covered in fans, {lines} fragments blended by lines"
     );
     let kept = statistics.colors_kept;
     assert!(kept > 100, "{kept} colours were kept");

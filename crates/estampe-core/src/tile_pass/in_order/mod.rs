@@ -7,7 +7,7 @@
 //! ```text
 //!   coverage ─▶ early tests ─▶ queue ─▶ shader ─▶ late tests ─▶ colours
 //!      ├─ large triangles, blended from their planes (`layers`)
-//!      ├─ two triangles that are a rectangle (`boxes`)
+//!      ├─ two triangles that are a rectangle (`boxes`), more of one colour that share sides (`fan`)
 //!      └─ small triangles and lines, sixteen at a time (`small`, `small_lines`)
 //! ```
 
@@ -28,6 +28,7 @@ macro_rules! dispatch_samples {
 mod ahead;
 mod boxes;
 mod dense;
+mod fan;
 mod flush;
 mod layers;
 mod listed;
@@ -58,6 +59,7 @@ use crate::tile_path::TilePath;
 pub(super) use ahead::Ahead;
 use estampe_simd::{LANES, Lane, Lanes};
 use estampe_types::state::ConservativeMode;
+use fan::{Fan, joins_triangles};
 use shade::PendingQuads;
 use small::{Batch, Listing, SmallScratch};
 use small_lines::LineBatch;
@@ -78,6 +80,7 @@ pub(super) struct InOrderScratch<const N: usize> {
     waiting: Option<[u32; 2]>,
     pending: PendingQuads,
     solid: Solid<N>,
+    fan: Box<Fan<N>>,
     solid_colors: SolidColors,
     small: Box<SmallScratch<N>>,
     fragments: Box<Fragments>,
@@ -98,6 +101,7 @@ impl<const N: usize> Default for InOrderScratch<N> {
             waiting: None,
             pending: PendingQuads::default(),
             solid: Solid::default(),
+            fan: Box::default(),
             solid_colors: SolidColors::default(),
             small: Box::default(),
             fragments: Box::default(),
@@ -167,6 +171,7 @@ pub(super) fn draw<const N: usize>(
     }
     drawing.batch(&mut batch);
     drawing.draw_lines(&mut lines);
+    drawing.end_fan();
     drawing.end_solid();
     drawing.blend_layers();
     if plan.query.is_some() || to == FragmentsTo::Visibility {
@@ -282,6 +287,8 @@ struct InOrder<'a, 'j, 't, 'p, const N: usize> {
     primitives: Option<BinEntry>,
     /// True if triangles of one colour are gathered.
     gathers: bool,
+    /// True if those of them that share sides are covered together.
+    joins_triangles: bool,
     /// True if shaders store in an order that can be seen.
     stores_in_order: bool,
     /// What is listed of small triangles.
@@ -308,6 +315,9 @@ impl<'a, 'j, 't, const N: usize> InOrder<'a, 'j, 't, '_, N> {
     ) -> Self {
         let plan = work.plan;
         let key = plan.pipeline.key();
+        // A run is of one kind of primitive, and notes of the queue serve triangles alone.
+        let gathers = gathers(plan) && matches!(first, Some(BinEntry::Triangles { .. }));
+        let is_special = work.level.is_scalar() || const { N > 4 };
         Self {
             work,
             to: FragmentsTo::Attachments,
@@ -319,10 +329,10 @@ impl<'a, 'j, 't, const N: usize> InOrder<'a, 'j, 't, '_, N> {
             shares_packets: plan.path != TilePath::InOrderPackets,
             needs_no_quads: key.needs_no_quads,
             primitives: first,
-            // A run is of one kind of primitive, and notes of the queue serve triangles alone.
-            gathers: gathers(plan) && matches!(first, Some(BinEntry::Triangles { .. })),
+            gathers,
+            joins_triangles: gathers && !is_special && joins_triangles(plan),
             stores_in_order: key.stores_in_order,
-            listing: if work.level.is_scalar() || const { N > 4 } {
+            listing: if is_special {
                 Listing::None
             } else {
                 Listing::of(plan)

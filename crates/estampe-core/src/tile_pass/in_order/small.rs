@@ -251,10 +251,14 @@ impl<const N: usize> InOrder<'_, '_, '_, '_, N> {
             }
             let run = (small >> lane).trailing_ones() as usize;
             if run >= LEAST {
+                self.end_fan();
                 let lanes = ((1u32 << run) - 1) << lane;
                 self.list_pixels::<OfTriangles>((lanes & 0xFFFF) as u16);
                 next = lane + run;
+            } else if member.second.is_none() && self.join_fan(member.triangle) {
+                next = lane + 1;
             } else {
+                self.end_fan();
                 // Blocks are blended triangle by triangle.
                 let second = member.second.filter(|_| self.blends_blocks);
                 let is_box = member.second.is_some() && second.is_none();
