@@ -112,7 +112,7 @@ impl SampleTests {
             lanes,
             (stored, !self.writes_depth()),
             #[inline(always)]
-            |lanes, stencil| face.map(|face| test_stencil(s, face, lanes, stencil)),
+            |lanes, stencil| Some(test_stencil(s, face?, lanes, stencil)),
         )
     }
 
@@ -147,8 +147,11 @@ impl SampleTests {
             }
             None => u16::MAX,
         };
-        let stencil = stored.stencil;
-        let passed = stencil.and_then(|stencil| stencil_test([lanes, nearer], stencil));
+        // Without closures around it, the test is inlined, and a face's lanes stay in registers.
+        let passed = match stored.stencil {
+            Some(stencil) => stencil_test([lanes, nearer], stencil),
+            None => None,
+        };
         let passed = passed.unwrap_or(lanes & nearer);
         if let (Some(depth), true) = (
             stored.depth,

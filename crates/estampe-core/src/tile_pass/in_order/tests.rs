@@ -8,7 +8,7 @@ use crate::per_sample::sample_tests::{SampleTests, StoredSamples};
 use crate::plan::tile_plan::TestTiming;
 use crate::raster::packet_origin;
 use crate::tile_pass::TileJob;
-use estampe_simd::{LANES, Lanes, Packet, SimdBase, f32x16};
+use estampe_simd::{LANES, Lanes, Packet, SimdBase, f32x16, outline};
 
 impl<const N: usize> InOrder<'_, '_, '_, '_, N> {
     /// Drops the samples that the sample mask excludes and those that fail before shading; false
@@ -59,7 +59,12 @@ impl<const N: usize> InOrder<'_, '_, '_, '_, N> {
         let tests = &self.work.plan.tests;
         let (shape, samples) = (self.work.shape, self.samples);
         let (offsets, count) = (samples.offsets(), samples.count());
-        let front = if front { u16::MAX } else { 0 };
+        // Prepared once for all packets, and depth is not interpolated if nothing compares it.
+        let face = match &tests.stencil {
+            Some(test) if WRITES => Some(test.face(front).lanes(s)),
+            _ => None,
+        };
+        let compares_depth = tests.depth.is_some();
         let TileJob { depth, stencil, .. } = &mut *self.job;
         let mut touched = 0;
         self.scratch.in_order.list.retain(
@@ -69,19 +74,25 @@ impl<const N: usize> InOrder<'_, '_, '_, '_, N> {
                 let (x, y) = packet_origin(u32::from(item.packet));
                 let pixel = [shape.x + x, shape.y + y];
                 for (sample, mask) in item.masks.iter_mut().enumerate().take(count) {
-                    let new = interpolant.depth(s, pixel, offsets[sample]);
-                    let new = tests.stored.of(s, new);
-                    let line = packet * count + sample;
-                    let stored_depth = depth.get_mut(line);
-                    if WRITES {
-                        let stored = StoredSamples {
-                            depth: stored_depth,
-                            stencil: stencil.get_mut(line),
-                        };
-                        *mask = tests.run(s, new, *mask, front, stored);
-                    } else {
-                        *mask &= tests.would_pass(s, new, stored_depth);
-                    }
+                    outline!(s, {
+                        let mut new = <f32x16<S> as SimdBase<S>>::splat(s, 0.0);
+                        if compares_depth {
+                            new = interpolant.depth(s, pixel, offsets[sample]);
+                        }
+                        let line = packet * count + sample;
+                        let stored_depth = depth.get_mut(line);
+                        if WRITES {
+                            let stored = StoredSamples {
+                                depth: stored_depth,
+                                stencil: stencil.get_mut(line),
+                            };
+                            let new = tests.comparable(s, new);
+                            *mask = tests.run_face(s, new, *mask, face.as_ref(), stored);
+                        } else {
+                            let new = tests.stored.of(s, new);
+                            *mask &= tests.would_pass(s, new, stored_depth);
+                        }
+                    });
                 }
                 touched |= 1u16 << ((packet >> 4) & 15);
             },
