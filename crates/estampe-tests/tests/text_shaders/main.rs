@@ -14,6 +14,7 @@ mod peers;
 mod picture;
 mod shadow_maps;
 mod spirv;
+mod stored_colors;
 mod subgroups;
 
 use estampe::{
