@@ -23,6 +23,10 @@ pub(crate) struct HierarchicalZ {
     greatest: [f32; LANES],
     /// Blocks whose ranges are out of date, one bit each.
     stale: u16,
+    /// How many blocks the tile has, and its least and greatest depth, if none is out of date: many
+    /// triangles may be hidden in all of the tile.
+    blocks: usize,
+    tile: [f32; 2],
     /// Ranges of packets.
     pub(crate) packets: PacketRanges,
 }
@@ -57,6 +61,8 @@ impl Default for HierarchicalZ {
             least: [0.0; LANES],
             greatest: [0.0; LANES],
             stale: u16::MAX,
+            blocks: LANES,
+            tile: [0.0; 2],
             packets: PacketRanges::default(),
         }
     }
@@ -64,8 +70,9 @@ impl Default for HierarchicalZ {
 
 impl HierarchicalZ {
     /// Begins a tile whose depths are all `cleared`, or unknown.
-    pub(crate) fn begin(&mut self, cleared: Option<f32>) {
+    pub(crate) fn begin(&mut self, tile: TileShape, cleared: Option<f32>) {
         let depth = cleared.unwrap_or_default();
+        (self.blocks, self.tile) = (tile.blocks(), [depth; 2]);
         self.least = [depth; LANES];
         self.greatest = [depth; LANES];
         self.stale = if cleared.is_some() { 0 } else { u16::MAX };
@@ -137,14 +144,23 @@ impl HierarchicalZ {
                 compare,
                 CompareFunction::LessEqual | CompareFunction::GreaterEqual
             );
-        let blocks = (side / 16 * (side / 16)) as usize;
-        if is_less {
-            let mut all = self.greatest.iter().take(blocks);
-            all.all(|&stored| depth > stored || !strict && depth == stored)
+        let [least, greatest] = self.tile;
+        let is_behind = if is_less {
+            depth > greatest
         } else {
-            let mut all = self.least.iter().take(blocks);
-            all.all(|&stored| depth < stored || !strict && depth == stored)
-        }
+            depth < least
+        };
+        is_behind || !strict && depth == if is_less { greatest } else { least }
+    }
+
+    /// Finds the range of the tile, after that of some blocks has changed.
+    #[inline(always)]
+    fn set_tile_range(&mut self) {
+        let blocks = self.least.iter().zip(&self.greatest).take(self.blocks);
+        let none = [f32::INFINITY, f32::NEG_INFINITY];
+        self.tile = blocks.fold(none, |[low, high], (least, greatest)| {
+            [low.min(*least), high.max(*greatest)]
+        });
     }
 
     #[inline(always)]
@@ -211,11 +227,17 @@ impl HierarchicalZ {
             self.least[block] = classes.least[block];
             self.greatest[block] = classes.greatest[block];
         }
+        if blocks != 0 {
+            self.set_tile_range();
+        }
     }
 
     /// Scans the blocks that are out of date.
     #[inline(always)]
     fn refresh<S: Lanes>(&mut self, s: S, samples: usize, stored: &[[f32; LANES]]) {
+        if self.stale == 0 {
+            return;
+        }
         let blocks = stored.chunks_exact(LANES * samples);
         for (block, lines) in blocks.enumerate() {
             if self.stale >> block & 1 == 0 {
@@ -235,6 +257,7 @@ impl HierarchicalZ {
             self.greatest[block] = greatest.into_iter().fold(f32::NEG_INFINITY, f32::max);
         }
         self.stale = 0;
+        self.set_tile_range();
     }
 }
 

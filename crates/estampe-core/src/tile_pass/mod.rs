@@ -217,7 +217,8 @@ fn begin<const N: usize>(pass: &TilePass<'_>, job: &mut TileJob<'_>, scratch: &m
     pass.clear.depth_stencil(pass, job);
     pass.clear.colors(pass, job, 0..waiting, None);
     scratch.colors_wait = pass.clear.clears_colors_from(waiting);
-    scratch.hiz.begin(pass.clear.depth);
+    let tile = pass.tile_shape(job.tile);
+    scratch.hiz.begin(tile, pass.clear.depth);
 }
 
 /// Clears the colours of the tile that still wait for it.
