@@ -127,6 +127,10 @@ pub struct Statistics {
     /// depend on the SIMD level.
     #[doc(hidden)]
     pub packets_shown_uncleared: u64,
+    /// Blocks of 16×16 pixels that were not cleared, as one triangle was shown in all of each. They
+    /// depend on the SIMD level.
+    #[doc(hidden)]
+    pub blocks_uncleared: u64,
     /// Time of the geometry side.
     pub geometry: Duration,
     /// Time of the tile side.
@@ -186,6 +190,7 @@ impl std::ops::AddAssign for Statistics {
         self.tiles_to_rows += other.tiles_to_rows;
         self.tiles_in_workers += other.tiles_in_workers;
         self.images_given_memory += other.images_given_memory;
+        self.blocks_uncleared += other.blocks_uncleared;
         self.packets_shown_uncleared += other.packets_shown_uncleared;
         self.geometry += other.geometry;
         self.raster += other.raster;

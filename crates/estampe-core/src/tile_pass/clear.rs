@@ -58,9 +58,12 @@ impl Clear {
     }
 
     /// The first attachment whose colours may wait until it is known where a tile shows triangles,
-    /// so that they are cleared elsewhere alone. The first of all holds the triangles' ids if its
-    /// texels have one word.
-    pub(super) fn first_waiting(&self) -> usize {
+    /// so that they are cleared elsewhere alone: of one sample. The first of all holds the
+    /// triangles' ids if its texels have one word.
+    pub(super) fn first_waiting<const N: usize>(&self) -> usize {
+        if const { N > 1 } {
+            return MAX_TARGETS;
+        }
         usize::from(self.colors[0].is_some_and(|(_, words)| words == 1))
     }
 
@@ -69,24 +72,44 @@ impl Clear {
         self.colors.iter().skip(first).any(Option::is_some)
     }
 
-    /// Clears a tile's depth and stencil values.
-    pub(super) fn depth_stencil(&self, pass: &TilePass<'_>, job: &mut TileJob<'_>) {
-        let blocks = pass.blocks_in_target(job.tile);
-        dispatch!(pass.level, s => self.depth_stencil_lanes(s, job, blocks));
+    /// Clears a tile's stencil values.
+    pub(super) fn stencil(&self, job: &mut TileJob<'_>) {
+        if let Some(stencil) = self.stencil {
+            job.stencil.fill([stencil; LANES]);
+        }
     }
 
-    /// Clears colours of a tile, of the attachments in a range: of all packets, or, of one sample,
-    /// of those in a set.
-    pub(super) fn colors(
+    /// Clears some blocks of a tile, of 16×16 pixels, one bit each: their depths, and the colours
+    /// that [need not wait](Self::first_waiting).
+    pub(super) fn blocks<const N: usize>(
         &self,
         pass: &TilePass<'_>,
         job: &mut TileJob<'_>,
-        attachments: Range<usize>,
+        blocks: u16,
+    ) {
+        let mut in_target = pass.blocks_in_target(job.tile);
+        in_target.set &= blocks;
+        if in_target.set == 0 {
+            return;
+        }
+        dispatch!(pass.level, s => {
+            self.depth_lanes(s, job, in_target);
+            self.color_lanes(s, job, 0..self.first_waiting::<N>(), (in_target, None));
+        });
+    }
+
+    /// Clears the colours of a tile that wait: of all packets, or, of one sample, of those in a
+    /// set.
+    pub(super) fn waiting_colors<const N: usize>(
+        &self,
+        pass: &TilePass<'_>,
+        job: &mut TileJob<'_>,
         packets: Option<&PacketSet>,
     ) {
-        if self.clears_colors_from(attachments.start) {
+        let waiting = self.first_waiting::<N>()..MAX_TARGETS;
+        if self.clears_colors_from(waiting.start) {
             let blocks = pass.blocks_in_target(job.tile);
-            dispatch!(pass.level, s => self.color_lanes(s, job, attachments, (blocks, packets)));
+            dispatch!(pass.level, s => self.color_lanes(s, job, waiting, (blocks, packets)));
         }
     }
 
@@ -126,10 +149,7 @@ impl Clear {
     }
 
     #[inline(always)]
-    fn depth_stencil_lanes<S: Lanes>(&self, s: S, job: &mut TileJob<'_>, blocks: TileBlocks) {
-        if let Some(stencil) = self.stencil {
-            job.stencil.fill([stencil; LANES]);
-        }
+    fn depth_lanes<S: Lanes>(&self, s: S, job: &mut TileJob<'_>, blocks: TileBlocks) {
         if let Some(depth) = self.depth {
             let value = <f32x16<S> as SimdBase<S>>::splat(s, depth);
             for (_, lines) in blocks.of(job.depth) {

@@ -125,6 +125,9 @@ pub(crate) struct TileScratch<const N: usize> {
     in_order: in_order::InOrderScratch<N>,
     visibility: visibility::VisibilityScratch<N>,
     tile: WorkerTile,
+    /// The blocks of the tile that wait to be cleared, one bit each: where the first triangles of
+    /// all replace what is there, they need not be.
+    blocks_wait: u16,
     /// True if colours of the tile wait to be cleared.
     colors_wait: bool,
     statistics: Statistics,
@@ -173,6 +176,7 @@ fn draw_into<const N: usize>(
                     clear_colors(pass, job, scratch);
                     FragmentsTo::Attachments
                 };
+                clear_blocks(pass, job, u16::MAX, scratch);
                 let job = (&mut *job, &mut ahead);
                 in_order::draw(pass, (&work, entries), to, job, scratch);
             }
@@ -180,6 +184,7 @@ fn draw_into<const N: usize>(
     }
     in_order::finish(pass, job, scratch);
     visibility::resolve(pass, job, scratch);
+    clear_blocks(pass, job, u16::MAX, scratch);
     clear_colors(pass, job, scratch);
     resolve_samples(pass, job, scratch);
     for rows in &mut job.rows {
@@ -209,16 +214,26 @@ fn resolve_samples<const N: usize>(
 }
 
 fn begin<const N: usize>(pass: &TilePass<'_>, job: &mut TileJob<'_>, scratch: &mut TileScratch<N>) {
-    let waiting = if N == 1 {
-        pass.clear.first_waiting()
-    } else {
-        MAX_TARGETS
-    };
-    pass.clear.depth_stencil(pass, job);
-    pass.clear.colors(pass, job, 0..waiting, None);
+    pass.clear.stencil(job);
+    scratch.blocks_wait = u16::MAX;
+    let waiting = pass.clear.first_waiting::<N>();
     scratch.colors_wait = pass.clear.clears_colors_from(waiting);
     let tile = pass.tile_shape(job.tile);
     scratch.hiz.begin(tile, pass.clear.depth);
+}
+
+/// Clears those of some blocks of the tile that still wait for it.
+fn clear_blocks<const N: usize>(
+    pass: &TilePass<'_>,
+    job: &mut TileJob<'_>,
+    blocks: u16,
+    scratch: &mut TileScratch<N>,
+) {
+    let blocks = scratch.blocks_wait & blocks;
+    if blocks != 0 {
+        scratch.blocks_wait &= !blocks;
+        pass.clear.blocks::<N>(pass, job, blocks);
+    }
 }
 
 /// Clears the colours of the tile that still wait for it.
@@ -228,8 +243,7 @@ fn clear_colors<const N: usize>(
     scratch: &mut TileScratch<N>,
 ) {
     if std::mem::take(&mut scratch.colors_wait) {
-        let waiting = pass.clear.first_waiting()..MAX_TARGETS;
-        pass.clear.colors(pass, job, waiting, None);
+        pass.clear.waiting_colors::<N>(pass, job, None);
     }
 }
 

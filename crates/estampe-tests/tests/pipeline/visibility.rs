@@ -179,7 +179,7 @@ fn opaque_and_blended_draws_in_turn() {
     );
 }
 
-/// Colours wait to be cleared until it is known where triangles are shown.
+/// Colours and depths wait to be cleared until it is known where triangles are shown.
 ///
 /// Rows: O7, U3.
 #[test]
@@ -226,4 +226,6 @@ fn packets_that_triangles_cover_are_not_cleared() {
         case
     });
     assert!(statistics.packets_shown_uncleared > 0, "all were cleared");
+    let blocks = statistics.blocks_uncleared;
+    assert!(blocks > 0, "no triangle replaced all of a block");
 }

@@ -37,7 +37,7 @@ mod shortcuts;
 mod small;
 mod writer;
 
-use super::{TileJob, TilePass, TileScratch, TileWork};
+use super::{TileJob, TilePass, TileScratch, TileWork, clear_blocks};
 use crate::bounds::bins::BinEntry;
 use crate::raster::CoverageList;
 use crate::raster::packet_edges::PacketEdges;
@@ -127,6 +127,7 @@ pub(super) fn add<const N: usize>(
         return;
     }
     rasterize::rasterize_waiting(pass, job, scratch);
+    clear_blocks(pass, job, u16::MAX, scratch);
     let plan = work.plan;
     if plan.path == TilePath::VisibilityCrossTriangle {
         let range = plan.tests.stored.range;

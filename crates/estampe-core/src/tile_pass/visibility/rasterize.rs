@@ -13,7 +13,7 @@ use crate::per_sample::packet_ranges::PacketRanges;
 use crate::plan::tile_plan::TilePlan;
 use crate::raster::SampleSet;
 use crate::raster::triangle::TileTriangle;
-use crate::tile_pass::{HIZ_PACKETS, TileJob, TilePass, TileScratch, TileWork};
+use crate::tile_pass::{HIZ_PACKETS, TileJob, TilePass, TileScratch, TileWork, clear_blocks};
 use crate::tile_path::TilePath;
 use estampe_simd::{Lane, dispatch};
 
@@ -84,6 +84,7 @@ pub(super) fn rasterize_waiting<const N: usize>(
     }
     waiting.clear();
     scratch.visibility.waiting = waiting;
+    clear_blocks(pass, job, u16::MAX, scratch);
 }
 
 /// Returns the storage for the IDs of a sub-draw's triangles.
@@ -100,6 +101,7 @@ pub(super) fn storage_of(plan: &TilePlan<'_>) -> IdStorage {
 
 /// A run of a chunk in the visibility pass.
 pub(super) struct Rasterizer<'a, 'j, 't, const N: usize> {
+    pass: &'j TilePass<'j>,
     pub(super) work: &'a TileWork<'a>,
     pub(super) samples: SampleSet<N>,
     order: OrderKind,
@@ -119,13 +121,14 @@ pub(super) struct Rasterizer<'a, 'j, 't, const N: usize> {
 
 impl<'a, 'j, 't, const N: usize> Rasterizer<'a, 'j, 't, N> {
     fn new(
-        pass: &TilePass<'_>,
+        pass: &'j TilePass<'j>,
         work: &'a TileWork<'a>,
         order: OrderKind,
         job: &'j mut TileJob<'t>,
         scratch: &'j mut TileScratch<N>,
     ) -> Self {
         Self {
+            pass,
             work,
             samples: pass.sample_set(),
             order,
@@ -267,6 +270,23 @@ impl<'a, 'j, 't, const N: usize> Rasterizer<'a, 'j, 't, N> {
         }
     }
 
+    /// Clears what waits for it of the blocks that a triangle touches, but for those all of whose
+    /// depths it replaces, and whose colours will be its own.
+    fn clear_touched(&mut self, mut touched: u16, certain: u16) {
+        // Of several samples, all attachments wait, and triangles may have colours in a few.
+        let replaces = const { N == 1 }
+            && self.storage != IdStorage::None
+            && self.work.plan.tests.writes_depth();
+        if replaces {
+            let waiting = self.scratch.blocks_wait & certain;
+            self.scratch.blocks_wait &= !certain;
+            self.scratch.statistics.blocks_uncleared += u64::from(waiting.count_ones());
+        } else {
+            touched |= certain;
+        }
+        clear_blocks(self.pass, self.job, touched, self.scratch);
+    }
+
     /// A triangle of any size, by blocks and packets.
     fn large(
         &mut self,
@@ -317,6 +337,9 @@ impl<'a, 'j, 't, const N: usize> Rasterizer<'a, 'j, 't, N> {
         }
         let others = whole & !certain;
         let touched = blocks_of(others, list.items().iter().map(|item| item.packet));
+        if self.scratch.blocks_wait != 0 {
+            self.clear_touched(touched, certain);
+        }
         let visibility = &mut self.scratch.visibility;
         let mut single = std::mem::take(&mut visibility.buffer.single);
         let counts = plan.query.is_some().then_some(&mut self.passed);

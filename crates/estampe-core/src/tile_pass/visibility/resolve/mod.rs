@@ -29,7 +29,7 @@ use crate::pipeline::color_target::ColorTarget;
 use crate::plan::tile_plan::TilePlan;
 use crate::raster::{Covered, MAX_PACKETS, SampleSet, packet_origin};
 use crate::tile_pass::fragments::Fragments;
-use crate::tile_pass::{MAX_TARGETS, PacketSet, TileJob, TilePass, TileScratch, write_colors};
+use crate::tile_pass::{PacketSet, TileJob, TilePass, TileScratch, write_colors};
 use early::write_cross_triangle;
 use estampe_simd::{LANES, Lanes, dispatch};
 use estampe_types::Interpolation;
@@ -169,8 +169,7 @@ fn clear_others<const N: usize>(
             scratch.statistics.packets_shown_uncleared += u64::from(is_shown);
         }
     }
-    let waiting = pass.clear.first_waiting()..MAX_TARGETS;
-    pass.clear.colors(pass, job, waiting, Some(&others));
+    pass.clear.waiting_colors::<N>(pass, job, Some(&others));
 }
 
 /// A run being resolved.
