@@ -112,6 +112,6 @@ pub use storage::{
 pub use unorm8::store_unorm8;
 pub use upload::LevelData;
 pub use view::{
-    Coordinates, Lod, PacketLod, PacketPlace, PacketRequest, SampledTexture, TexelView,
-    TextureCoordinates,
+    Coordinates, Lod, PacketLod, PacketPlace, PacketRequest, SampledTexture, TapShifts, TexelView,
+    TextureCoordinates, shifted,
 };

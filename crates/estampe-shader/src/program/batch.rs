@@ -1,6 +1,6 @@
 //! Batches of the pipeline as runs of a kernel.
 
-use super::nondependent::scalar_of;
+use super::read_place::scalar_of;
 use super::stage::Stage;
 use estampe_ir::interface::{Input, Output};
 use estampe_ir::interpreter::{InputData, OutputData, cells};

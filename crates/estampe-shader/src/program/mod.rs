@@ -12,9 +12,12 @@ mod layouts;
 mod link;
 mod machine;
 mod nondependent;
+mod read_place;
 mod samples;
 mod stage;
+mod taps;
 mod textures;
+mod uniforms;
 mod workspaces;
 
 pub use compute::{MAX_INVOCATIONS, TextCompute};
@@ -32,6 +35,7 @@ use estampe_types::{
 use facts::Facts;
 use link::Links;
 use stage::Stage;
+use uniforms::Sources;
 
 /// A stage that was lowered, with what its tree does not tell.
 #[derive(Debug, Clone)]
@@ -215,7 +219,12 @@ impl Program for TextProgram {
             self.interface.fragment_scalars(),
             batch.coverage.len(),
         );
-        let run = stage.reads().with_texels(&textures, scalars, |texels| {
+        let sources = Sources {
+            textures: &textures,
+            buffers: buffers.all(),
+            immediates: &bindings.immediates,
+        };
+        let run = stage.reads().with_texels(sources, scalars, |texels| {
             let batch = (batch, texels);
             with_fragments(stage, places, batch, |packets, inputs, outputs| {
                 stage.run(

@@ -8,36 +8,50 @@
 //! read where the pipeline put them, texels are inputs of the shader like others, and no register
 //! is saved around a call. Of the samples in the shader's code each packet's is a call.
 //!
+//! So are samples at uniform shifts from varyings, which are [filters](super::taps).
+//!
 //! Only samples in the outermost body are taken, which every invocation makes. They are numbered by
-//! groups: those of a group are at the same place.
+//! groups: those of a group are at the same place, or are the taps of one filter.
 
 use super::batch::Widths;
+use super::read_place::{MOST, Place, Read, found};
+use super::taps::{Filter, Shift};
 use super::textures::BoundTextures;
+use super::uniforms::{Finder, Sources, Uniforms};
 use estampe_ir::interface::{Input, Interface};
-use estampe_ir::op::{Axis, LevelOfDetail, TextureOp, TextureQuery};
 use estampe_ir::tree::{Node, Tree, passes};
 use estampe_ir::{Op, Value};
-use estampe_simd::{Packet, words_of};
-use estampe_texture::{PacketLod, PacketPlaces, PacketRequest, SampledTexture};
+use estampe_simd::Packet;
+use estampe_texture::{PacketLod, PacketRequest, SampledTexture, TapShifts};
 use std::cell::Cell;
 use std::collections::HashMap;
 
-/// The most reads of a stage: the texels of sixteen packets, 4 kB for each read, stay in the first
-/// cache. Other samples stay in the code.
-const MOST: usize = 8;
-
 /// The channels of a texel.
-const CHANNELS: usize = 4;
+pub(super) const CHANNELS: usize = 4;
 
 thread_local! {
-    /// The memory of the texels of the last batch.
-    static TEXELS: Cell<Vec<Packet<f32>>> = Cell::default();
+    /// The memory of the last batch.
+    static MEMORY: Cell<Memory> = Cell::default();
+}
+
+/// What is made for a batch, in memory that the next one uses again.
+#[derive(Debug, Default)]
+struct Memory {
+    texels: Vec<Packet<f32>>,
+    /// The uniform values.
+    values: Vec<u32>,
+    /// The shifts of each filter.
+    shifts: Vec<TapShifts>,
 }
 
 /// The reads of a stage.
 #[derive(Debug, Default)]
 pub(super) struct Reads {
     groups: Vec<Group>,
+    /// After the groups.
+    filters: Vec<Filter>,
+    /// The shifts of filters.
+    uniforms: Uniforms,
     /// For each read, the first one of its group and the number of them there.
     of_read: Vec<(usize, usize)>,
 }
@@ -50,83 +64,94 @@ struct Group {
     textures: Vec<[u32; 2]>,
 }
 
-/// The scalars of a fragment's varyings, derivatives after them, that a read's operands are.
-#[derive(Debug, Clone, PartialEq, Eq)]
-struct Place {
-    coordinates: Vec<usize>,
-    layer: Option<usize>,
-    level: Level,
-    offset: [i32; 3],
-}
-
-#[derive(Debug, Clone, PartialEq, Eq)]
-enum Level {
-    /// The base level.
-    Zero,
-    /// That of the quad.
-    Implicit,
-    /// That of the derivatives along x, then along y.
-    Gradients([Vec<usize>; 2]),
-}
-
 impl Reads {
     /// Takes the reads out of a tree of the fragment stage. `gradients` lists the scalars of the
     /// varyings that have derivatives, in ascending order.
     pub(super) fn take(tree: &mut Tree, widths: Widths, gradients: &[usize]) -> Self {
-        let scalars = scalars(tree, widths, gradients);
-        let mut reads = Self::default();
-        // The group of each read and its place there.
-        let mut found: HashMap<Value, (usize, usize)> = HashMap::new();
-        for node in &tree.body {
-            if let Node::Op {
-                op: Op::Texture(op),
-                first,
-            } = node
-                && found.len() < MOST
-                && let Some(place) = place(tree, op, &scalars)
-                && let Some(sampler) = op.sampler
-            {
-                let read = reads.add(place, [op.texture, sampler]);
-                found.insert(*first, read);
-            }
+        let found = found(tree, widths, gradients);
+        if found.is_empty() {
+            return Self::default();
         }
+        let mut reads = Self::default();
+        // Of each read, its group and its place there; those of filters come after the others.
+        let mut places = Vec::new();
+        let mut uniforms = Finder::new(tree);
+        for read in &found {
+            let is_filter = found.iter().any(|other| {
+                other.is_shifted() && other.place == read.place && other.texture == read.texture
+            });
+            places.push(match &read.shifts[..] {
+                &[u, v] if is_filter => {
+                    let shifts =
+                        [u, v].map(|shift| shift.numbered(|value| uniforms.number_of(tree, value)));
+                    (true, reads.add_tap(read, shifts))
+                }
+                _ => (false, reads.add(read)),
+            });
+        }
+        reads.uniforms = uniforms.finish();
+        let groups = reads.groups.iter().map(|group| group.textures.len());
+        let filters = reads.filters.iter().map(|filter| filter.shifts.len());
         let mut firsts = Vec::new();
-        for group in &reads.groups {
+        for count in groups.chain(filters) {
             let first = reads.of_read.len();
             firsts.push(first);
-            let count = group.textures.len();
-            reads
-                .of_read
-                .extend(std::iter::repeat_n((first, count), count));
+            let of_group = std::iter::repeat_n((first, count), count);
+            reads.of_read.extend(of_group);
+        }
+        let mut numbers: HashMap<Value, usize> = HashMap::new();
+        for (read, (is_tap, (group, at))) in found.iter().zip(places) {
+            let before = if is_tap { reads.groups.len() } else { 0 };
+            numbers.insert(read.first, firsts[before + group] + at);
         }
         let body = std::mem::take(&mut tree.body);
         for node in body {
             match node {
-                Node::Op { first, .. } if found.contains_key(&first) => {
-                    let (group, at) = found[&first];
-                    push_inputs(tree, firsts[group] + at, first);
+                Node::Op { first, .. } if numbers.contains_key(&first) => {
+                    push_inputs(tree, numbers[&first], first);
                 }
                 node => tree.body.push(node),
             }
         }
-        if !found.is_empty() {
-            passes::dead_code(tree);
-            passes::unused_inputs(tree);
-        }
+        passes::dead_code(tree);
+        passes::unused_inputs(tree);
         reads
     }
 
     /// Adds a read; its group and its place there.
-    fn add(&mut self, place: Place, texture: [u32; 2]) -> (usize, usize) {
-        let group = self.groups.iter().position(|group| group.place == place);
+    fn add(&mut self, read: &Read) -> (usize, usize) {
+        let group = self
+            .groups
+            .iter()
+            .position(|group| group.place == read.place);
         let group = group.unwrap_or_else(|| {
-            let textures = Vec::new();
-            self.groups.push(Group { place, textures });
+            self.groups.push(Group {
+                place: read.place.clone(),
+                textures: Vec::new(),
+            });
             self.groups.len() - 1
         });
         let textures = &mut self.groups[group].textures;
-        textures.push(texture);
+        textures.push(read.texture);
         (group, textures.len() - 1)
+    }
+
+    /// Adds a tap; its filter and its place there.
+    fn add_tap(&mut self, read: &Read, shifts: [Shift<usize>; 2]) -> (usize, usize) {
+        let mut filters = self.filters.iter();
+        let filter =
+            filters.position(|filter| filter.place == read.place && filter.texture == read.texture);
+        let filter = filter.unwrap_or_else(|| {
+            self.filters.push(Filter {
+                place: read.place.clone(),
+                texture: read.texture,
+                shifts: Vec::new(),
+            });
+            self.filters.len() - 1
+        });
+        let taps = &mut self.filters[filter].shifts;
+        taps.push(shifts);
+        (filter, taps.len() - 1)
     }
 
     /// The number of reads.
@@ -136,8 +161,9 @@ impl Reads {
 
     /// True if one of them is of the texture at this position in the interface.
     pub(super) fn are_of(&self, texture: u32) -> bool {
-        let mut textures = self.groups.iter().flat_map(|group| &group.textures);
-        textures.any(|[of, _]| *of == texture)
+        let groups = self.groups.iter().flat_map(|group| &group.textures);
+        let filters = self.filters.iter().map(|filter| &filter.texture);
+        groups.chain(filters).any(|[of, _]| *of == texture)
     }
 
     /// Where a component of a read is among the texels of so many packets: its first packet, and
@@ -155,21 +181,27 @@ impl Reads {
     /// which [`place`](Self::place) tells where they are, to `then`.
     pub(super) fn with_texels<T>(
         &self,
-        textures: &BoundTextures<'_>,
+        sources: Sources<'_>,
         (scalars, stride, packets): (&[Packet<f32>], usize, usize),
         then: impl FnOnce(&[Packet<f32>]) -> T,
     ) -> T {
-        if self.groups.is_empty() {
+        if self.of_read.is_empty() {
             return then(&[]);
         }
-        let mut texels = TEXELS.take();
+        let mut memory = MEMORY.take();
         let needed = self.of_read.len() * packets * CHANNELS;
-        if texels.len() < needed {
-            texels.resize(needed, Packet::default());
+        if memory.texels.len() < needed {
+            memory.texels.resize(needed, Packet::default());
         }
-        self.sample(textures, (scalars, stride, packets), &mut texels);
-        let result = then(&texels);
-        TEXELS.set(texels);
+        if memory.shifts.len() < self.filters.len() {
+            memory
+                .shifts
+                .resize(self.filters.len(), TapShifts::UNSHIFTED);
+        }
+        self.uniforms.compute(sources, &mut memory.values);
+        self.sample(sources.textures, (scalars, stride, packets), &mut memory);
+        let result = then(&memory.texels);
+        MEMORY.set(memory);
         result
     }
 
@@ -177,9 +209,9 @@ impl Reads {
         &self,
         textures: &BoundTextures<'_>,
         (scalars, stride, packets): (&[Packet<f32>], usize, usize),
-        texels: &mut [Packet<f32>],
+        memory: &mut Memory,
     ) {
-        let (mut left, _) = texels.as_chunks_mut::<CHANNELS>();
+        let (mut left, _) = memory.texels.as_chunks_mut::<CHANNELS>();
         for group in &self.groups {
             let count = packets * group.textures.len();
             let Some((texels, others)) = left.split_at_mut_checked(count) else {
@@ -188,11 +220,19 @@ impl Reads {
             left = others;
             group.sample(textures, (scalars, stride), texels);
         }
+        for (filter, known) in self.filters.iter().zip(&mut memory.shifts) {
+            let count = packets * filter.shifts.len();
+            let Some((texels, others)) = left.split_at_mut_checked(count) else {
+                return;
+            };
+            left = others;
+            filter.sample((textures, &memory.values), known, (scalars, stride), texels);
+        }
     }
 }
 
 /// Packets that a texture is asked for together: those of most batches.
-const TOGETHER: usize = 16;
+pub(super) const TOGETHER: usize = 16;
 
 fn clear(texel: &mut [Packet<f32>; CHANNELS]) {
     *texel = [Packet::default(); CHANNELS];
@@ -221,7 +261,9 @@ impl Group {
             if is_common {
                 return;
             }
-            if each == 1 && lod != PacketLod::Gradients && first.sample_batch(lod, &places, texels)
+            if each == 1
+                && lod != PacketLod::Gradients
+                && first.sample_shifted(lod, &places, &TapShifts::UNSHIFTED, texels)
             {
                 return;
             }
@@ -247,118 +289,6 @@ impl Group {
             }
         }
     }
-}
-
-impl Place {
-    /// Two coordinates, and where the level of detail comes from, if the place is no more.
-    fn flat<'a>(
-        &self,
-        scalars: &'a [Packet<f32>],
-        stride: usize,
-    ) -> Option<(PacketPlaces<'a>, PacketLod)> {
-        let &[u, v] = &self.coordinates[..] else {
-            return None;
-        };
-        let (gradients, lod) = match &self.level {
-            Level::Zero => (None, PacketLod::Level),
-            Level::Implicit => (None, PacketLod::Implicit),
-            Level::Gradients([x, y]) => match (&x[..], &y[..]) {
-                (&[ux, vx], &[uy, vy]) => (Some([ux, vx, uy, vy]), PacketLod::Gradients),
-                _ => return None,
-            },
-        };
-        let is_plain = self.layer.is_none() && self.offset == [0; 3];
-        let places = PacketPlaces {
-            scalars,
-            stride,
-            at: [u, v],
-            gradients,
-        };
-        is_plain.then_some((places, lod))
-    }
-
-    /// Sets what a packet with these scalars asks for, in a request of zeros.
-    #[inline]
-    fn ask<'a>(&self, scalars: &'a [Packet<f32>], asked: &mut PacketRequest<'a>) {
-        for (to, scalar) in asked.at.iter_mut().zip(&self.coordinates) {
-            *to = &scalars[*scalar];
-        }
-        asked.offset = self.offset;
-        if let Some(layer) = self.layer {
-            asked.layer = &words_of(scalars)[layer];
-        }
-        match &self.level {
-            Level::Zero => asked.lod = PacketLod::Level,
-            Level::Implicit => {}
-            Level::Gradients(axes) => {
-                asked.lod = PacketLod::Gradients;
-                for (along, axis) in asked.gradients.chunks_mut(3).zip(axes) {
-                    for (to, scalar) in along.iter_mut().zip(axis) {
-                        *to = &scalars[*scalar];
-                    }
-                }
-            }
-        }
-    }
-}
-
-/// The values of a tree's outermost body that are scalars of the fragment's varyings or their
-/// derivatives.
-fn scalars(tree: &Tree, widths: Widths, gradients: &[usize]) -> HashMap<Value, usize> {
-    let scalar = |node: &Node| {
-        let Node::Op {
-            op: Op::Input(at),
-            first,
-        } = node
-        else {
-            return None;
-        };
-        let input = tree.interface.inputs.get(*at as usize)?;
-        Some((*first, scalar_of(*input, widths, gradients)?))
-    };
-    tree.body.iter().filter_map(scalar).collect()
-}
-
-/// The scalar of the fragments' varyings, derivatives after them, that an input is.
-pub(super) fn scalar_of(input: Input, widths: Widths, gradients: &[usize]) -> Option<usize> {
-    match input {
-        Input::Varying(scalar) => Some(scalar as usize),
-        Input::Derivative { scalar, axis } => {
-            let first = match axis {
-                Axis::X => widths.varyings,
-                Axis::Y => widths.varyings + gradients.len(),
-            };
-            Some(first + gradients.binary_search(&(scalar as usize)).ok()?)
-        }
-        _ => None,
-    }
-}
-
-/// The place of a sample, if its operands are scalars.
-fn place(tree: &Tree, op: &TextureOp, scalars: &HashMap<Value, usize>) -> Option<Place> {
-    let of = |value: &Value| scalars.get(value).copied();
-    let all = |values: &[Value]| values.iter().map(of).collect::<Option<Vec<_>>>();
-    let runs_everywhere = || {
-        let is_all = |node: &Node| matches!(node, Node::Op { op: Op::MaskConstant(true), first } if *first == op.mask);
-        tree.body.iter().any(is_all)
-    };
-    if op.query != TextureQuery::Sample || op.coordinates.len() > 3 {
-        return None;
-    }
-    Some(Place {
-        coordinates: all(&op.coordinates)?,
-        layer: match &op.layer {
-            Some(layer) => Some(of(layer)?),
-            None => None,
-        },
-        level: match &op.level {
-            LevelOfDetail::Zero => Level::Zero,
-            LevelOfDetail::Implicit if runs_everywhere() => Level::Implicit,
-            LevelOfDetail::Gradient { x, y } => Level::Gradients([all(x)?, all(y)?]),
-            _ => return None,
-        },
-        offset: op.offset,
-    })
 }
 
 /// Reads a read's texel: inputs in place of the results of the sample.

@@ -243,7 +243,11 @@ impl BoundTextures<'_> {
     }
 
     fn slot(&self, access: &TextureAccess<'_>) -> (u32, u32) {
-        let slot = self.textures.get(access.op.texture as usize);
+        self.slot_of(access.op.texture)
+    }
+
+    fn slot_of(&self, texture: u32) -> (u32, u32) {
+        let slot = self.textures.get(texture as usize);
         slot.map_or((u32::MAX, u32::MAX), |slot| (slot.group, slot.binding))
     }
 
@@ -287,13 +291,13 @@ impl BoundTextures<'_> {
         }
     }
 
-    fn query(&self, access: &mut TextureAccess<'_>) {
-        let (group, binding) = self.slot(access);
+    /// The words that a query of a texture's shape gives for a level.
+    pub(super) fn shape(&self, query: TextureQuery, texture: u32, level: u32) -> [u32; 3] {
+        let (group, binding) = self.slot_of(texture);
         let storage = self.bindings.storage_texture(group, binding);
         let view = self.bindings.texture(group, binding);
         let count = |count: usize| u32::try_from(count).unwrap_or(u32::MAX);
-        let query = access.op.query;
-        let words_of = |level: u32| match (query, storage) {
+        match (query, storage) {
             (TextureQuery::Levels, _) => [count(view.level_count()), 0, 0],
             (TextureQuery::Layers, Some(texture)) => [slices(texture), 0, 0],
             (TextureQuery::Layers, None) => [view.layer_count(), 0, 0],
@@ -301,7 +305,12 @@ impl BoundTextures<'_> {
             (_, Some(texture)) => [texture.width(), texture.height(), slices(texture)],
             (_, None) if (level as usize) < view.level_count() => view.size(level as usize),
             (_, None) => [0; 3],
-        };
+        }
+    }
+
+    fn query(&self, access: &mut TextureAccess<'_>) {
+        let op = access.op;
+        let words_of = |level: u32| self.shape(op.query, op.texture, level);
         for packet in 0..access.packets {
             let levels = access.level_of_detail();
             let levels = levels.map_or_else(Packet::default, |levels| levels[packet]);

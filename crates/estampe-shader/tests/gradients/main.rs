@@ -1,5 +1,6 @@
 //! Textures that are sampled at varyings: where their level of detail comes from.
 
+mod filters;
 mod linking;
 mod nondependent;
 mod rewriting;
@@ -21,6 +22,8 @@ const FRAGMENT: &str = "
 @group(0) @binding(7) var line: texture_1d<f32>;
 @group(0) @binding(8) var depths: texture_depth_2d;
 @group(0) @binding(9) var compared: sampler_comparison;
+@group(0) @binding(10) var halves: texture_2d<f32>;
+@group(0) @binding(11) var<uniform> numbers: vec4f;
 struct Varyings {
     @location(0) uv: vec2f,
     @location(1) direction: vec3f,

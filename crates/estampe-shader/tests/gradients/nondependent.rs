@@ -43,6 +43,10 @@ fn samples_at_varyings_are_made_before() {
 fn other_samples_stay_in_the_code() {
     for statements in [
         "return textureSample(map, s, in.uv * 2.0);",
+        "return textureSampleLevel(map, s, in.uv + in.on_screen, 0.0);",
+        "return textureSampleLevel(map, s, numbers.xy - in.uv, 0.0);",
+        "return textureSample(sky, s, in.direction + 0.5);",
+        "return textureSample(layers, s, in.uv + 0.5, in.layer);",
         "return textureSampleLevel(map, s, in.uv, in.direction.x);",
         "return textureSampleBias(map, s, in.uv, 1.0);",
         "return vec4f(textureSampleCompare(depths, compared, in.uv, in.direction.z));",

@@ -10,7 +10,7 @@ use estampe_texture::{
 };
 use estampe_types::bindings::{BoundGroup, BoundResource, BoundResources, OtherResource};
 use estampe_types::state::CompareFunction;
-use estampe_types::{Bindings, FragmentBatch, Limits, Program, Vec2, Vec3, Vec4};
+use estampe_types::{Bindings, BufferData, FragmentBatch, Limits, Program, Vec2, Vec3, Vec4};
 use std::sync::Arc;
 
 const PACKETS: usize = 33;
@@ -71,6 +71,17 @@ fn depths(random: &mut fastrand::Rng) -> TexelView {
     TexelView::of(texture.expect("it is small")).expect("it has a level")
 }
 
+/// Half floats, which filters sample in blocks.
+fn halves(random: &mut fastrand::Rng) -> TexelView {
+    let descriptor = TexelDescriptor::new_2d(64, 32, TextureFormat::Rgba16Float);
+    // From 2⁻⁷ to 2.
+    let texels = (0..64 * 32 * 4).map(|_| random.u16(0x2000..0x4000).to_le_bytes());
+    let bytes: Vec<u8> = texels.flatten().collect();
+    let (data, limits) = ([LevelData::tight(&bytes)], Limits::default());
+    let texture = descriptor.create(&data, MipGeneration::None, &limits);
+    TexelView::of(texture.expect("it is small")).expect("it has a level")
+}
+
 impl Textures {
     pub(super) fn new(sampler: SamplerDescriptor) -> Self {
         use TextureDimension as T;
@@ -86,6 +97,7 @@ impl Textures {
             (6, view((T::D3, V::D3), [8, 8, 8], random)),
             (7, view((T::D1, V::D1), [64, 1, 1], random)),
             (8, depths(random)),
+            (10, halves(random)),
         ];
         Self {
             views,
@@ -105,6 +117,14 @@ impl Textures {
         let mut entries: Vec<_> = self.views.iter().map(bound).collect();
         entries.push((0, BoundResource::Sampler(self.sampler)));
         entries.push((9, BoundResource::Sampler(self.compared)));
+        let numbers = [0.03_f32, -0.02, 1.5, 1e30].map(f32::to_bits);
+        let numbers = BoundResource::Buffer {
+            buffer: BufferData::from_words(numbers.to_vec()),
+            offset: 0,
+            size: 16,
+            dynamic_offset: None,
+        };
+        entries.push((11, numbers));
         Bindings {
             groups: vec![BoundGroup {
                 group: Arc::new(BoundResources { entries }),

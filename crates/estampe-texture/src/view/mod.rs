@@ -16,6 +16,9 @@
 //!   level or between the same two, all texels inside. It needs no selection per lane.
 //! * `packet/bytes.rs` samples packets of formats of bytes with linear filtering: the common case,
 //!   and with `packet/each_level.rs` a mip level, a layer and four texels for each lane.
+//! * `packet/filter.rs`, `packet/taps.rs` and `packet/block.rs` sample half floats for packets that
+//!   are blocks of pixels, by rows of texels: filters whose taps stand at known shifts, taps at any
+//!   coordinates, and one place.
 //! * `packet/mod.rs` is the general packet code, for other packets: every format except integers
 //!   and stencil, every dimension, filter and comparison. It samples once for every mip level among
 //!   the lanes.
@@ -44,6 +47,7 @@ mod sampled_texture;
 
 pub(crate) use coordinates::{Answers, answer, by_sixteen, load, packed, packet, packet_of_ints};
 pub use coordinates::{Coordinates, Lod, TextureCoordinates};
-pub use packet_request::{PacketLod, PacketPlace, PacketRequest};
+pub use packet::TapShifts;
+pub use packet_request::{PacketLod, PacketPlace, PacketRequest, shifted};
 pub use plane::TexelView;
 pub use sampled_texture::SampledTexture;

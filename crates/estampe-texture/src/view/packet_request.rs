@@ -5,7 +5,7 @@
 
 use super::SampledTexture;
 use super::coordinates::{Answers as Colors, Coordinates, Lod, packet};
-use super::packet::MOST_TAPS;
+use super::packet::{MOST_TAPS, TapShifts};
 use crate::compare::compare_packets;
 use crate::request::{Request, RequestDetail};
 use crate::{PacketPlaces, Rgba8Texture};
@@ -229,6 +229,18 @@ impl<'a> PacketPlace<'a> {
     }
 }
 
+/// Coordinates, moved.
+#[must_use]
+pub fn shifted(uv: [&Packet<f32>; 2], shift: [f32; 2]) -> [Packet<f32>; 2] {
+    let [mut u, mut v] = uv.map(|of| *of);
+    for (of, by) in [&mut u, &mut v].into_iter().zip(shift) {
+        for lane in &mut of.0 {
+            *lane += by;
+        }
+    }
+    [u, v]
+}
+
 /// The most textures that [`SampledTexture::sample_all_flat`] samples together.
 const TOGETHER: usize = 8;
 
@@ -297,48 +309,67 @@ impl SampledTexture {
     /// [`sample_request`](Self::sample_request) gives them for each, in level 0 for
     /// [`PacketLod::Level`].
     pub fn sample_each(&self, lod: PacketLod, at: &[[Packet<f32>; 2]], colors: &mut [Colors]) {
-        self.sample_by_blocks::<true>(lod, &PacketPlaces::of_pairs(at), colors);
+        for (at, colors) in at.chunks(MOST_TAPS).zip(colors.chunks_mut(MOST_TAPS)) {
+            let others = self.sample_blocks(lod, &PacketPlaces::of_pairs(at), colors);
+            self.sample_others(lod, others, at, colors);
+        }
     }
 
-    /// The colours at one place in each packet of a batch, as [`sample_each`](Self::sample_each)
-    /// gives them; [gradients](PacketPlaces::gradients) do not count. False, with nothing stored, if the
-    /// texture is not of half floats, or another level than the finest may count.
+    /// The colours at several shifts from one place in each packet of a batch, as
+    /// [`sample_each`](Self::sample_each) gives them; a shift is added to each coordinate, and of
+    /// each packet there are as many colours as shifts. [Gradients](PacketPlaces::gradients) do not
+    /// count. False, with nothing stored, if the texture is not of half floats, another level than
+    /// the finest may count, or there are no shifts.
     #[must_use]
-    pub fn sample_batch(
+    pub fn sample_shifted(
         &self,
         lod: PacketLod,
         places: &PacketPlaces<'_>,
+        shifts: &TapShifts,
         colors: &mut [Colors],
     ) -> bool {
-        let may_have_blocks = self.may_have_blocks(lod);
-        if may_have_blocks {
-            self.sample_by_blocks::<false>(lod, places, colors);
+        let each = shifts.of_taps().len();
+        if !self.may_have_blocks(lod) || each == 0 {
+            return false;
         }
-        may_have_blocks
+        let batches = places.chunks(MOST_TAPS);
+        for (places, colors) in batches.zip(colors.chunks_mut(MOST_TAPS * each)) {
+            let others = self.sample_filter(&places, shifts, colors);
+            let packets = places.each().zip(colors.chunks_mut(each));
+            for (others, (uv, colors)) in others.into_iter().zip(packets) {
+                if others != 0 {
+                    let mut at = [[Packet::default(); 2]; MOST_TAPS];
+                    for (at, shift) in at.iter_mut().zip(shifts.of_taps()) {
+                        *at = shifted(uv, *shift);
+                    }
+                    self.sample_others(lod, others, &at[..each], colors);
+                }
+            }
+        }
+        true
     }
 
-    fn sample_by_blocks<const TAPS: bool>(
+    /// Samples some of several coordinates one by one: bit `i` is number `i`.
+    fn sample_others(
         &self,
         lod: PacketLod,
-        places: &PacketPlaces<'_>,
+        others: u32,
+        at: &[[Packet<f32>; 2]],
         colors: &mut [Colors],
     ) {
-        for (places, colors) in places.chunks(MOST_TAPS).zip(colors.chunks_mut(MOST_TAPS)) {
-            let mut others = self.sample_blocks::<TAPS>(lod, &places, colors);
-            while others != 0 {
-                let at = others.trailing_zeros() as usize;
-                others &= others - 1;
-                let (Some([u, v]), Some(colors)) = (places.each().nth(at), colors.get_mut(at))
-                else {
-                    break;
-                };
-                let request = PacketRequest {
-                    at: [u, v, PacketRequest::ZEROS.at[2]],
-                    lod,
-                    ..PacketRequest::ZEROS
-                };
-                self.sample_request(&request, colors);
-            }
+        let mut left = others;
+        while left != 0 {
+            let number = left.trailing_zeros() as usize;
+            left &= left - 1;
+            let (Some([u, v]), Some(colors)) = (at.get(number), colors.get_mut(number)) else {
+                break;
+            };
+            let request = PacketRequest {
+                at: [u, v, PacketRequest::ZEROS.at[2]],
+                lod,
+                ..PacketRequest::ZEROS
+            };
+            self.sample_request(&request, colors);
         }
     }
 

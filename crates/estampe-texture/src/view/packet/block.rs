@@ -12,7 +12,7 @@
 
 use super::Packet;
 use crate::PacketPlaces;
-use crate::view::coordinates::{Answers, packet};
+use crate::view::coordinates::packet;
 use crate::view::plane::Plane;
 use crate::view::{PacketLod, PacketRequest, SampledTexture};
 use crate::wrap::{Place, place_by_lane, wrap};
@@ -31,10 +31,10 @@ const MOST_LINES: usize = 9;
 /// The words of a row of five texels.
 const NEIGHBOURS: usize = 5 * WORDS;
 
-/// Which of a block's colours holds the [footprint](Footprint)'s fractions until it is sampled, and
-/// which the bits of its texels.
-const FRACTIONS: usize = 0;
-const TEXELS: usize = 1;
+/// Where columns and rows stand in a level, in the order of
+/// [`columns_and_rows`](SimdLanes::columns_and_rows): the position of each between its texel and the
+/// next, which is the weight of the next one; then the bits of the numbers of the texels.
+pub(super) type Spot = [Values<f32>; 2];
 
 impl SampledTexture {
     /// Returns true if the finest level is sampled as a block; tests see by it which way a request
@@ -44,7 +44,7 @@ impl SampledTexture {
     pub fn samples_a_block(&self, request: &PacketRequest<'_>) -> bool {
         let at = [[*request.at[0], *request.at[1]]];
         let places = PacketPlaces::of_pairs(&at);
-        self.sample_blocks::<false>(PacketLod::Level, &places, &mut [Default::default()]) == 0
+        self.sample_blocks(PacketLod::Level, &places, &mut [Default::default()]) == 0
     }
 
     /// Returns true if the texels of a block are neighbours in the finest level.
@@ -56,9 +56,9 @@ impl SampledTexture {
             let Some(level) = BlockLevel::new(s, self, &self.view.planes[0]) else {
                 return false;
             };
-            let mut colors = Answers::default();
-            level.find::<false>(s, [u, v], &mut colors)
-                && Footprint::of(&colors).are_neighbours(s)
+            let mut spot = Spot::default();
+            level.find::<false>(s, [u, v], &mut spot)
+                && Footprint::of(&spot).are_neighbours(s)
         }, others => false)
     }
 }
@@ -134,44 +134,53 @@ impl<'a, S: SimdLanes> BlockLevel<'a, S> {
     /// and rows, a texel is across a border, or texels are far apart.
     #[inline(always)]
     fn sample<const CLAMPS: bool>(&self, s: S, uv: [&Values<f32>; 2]) -> Option<[f32x16<S>; 4]> {
-        let mut colors = Answers::default();
-        if !self.find::<CLAMPS>(s, uv, &mut colors) {
+        let mut spot = Spot::default();
+        if !self.find::<CLAMPS>(s, uv, &mut spot) {
             return None;
         }
-        let footprint = Footprint::of(&colors);
+        let footprint = Footprint::of(&spot);
         self.filter(s, footprint, footprint.are_neighbours(s))
     }
 
-    /// Finds where the samples at (u, v), unwrapped, stand, and stores their [footprint](Footprint)
-    /// in the memory of the colours. True if they stand in columns and rows, and no texel is across
-    /// a border. No branch depends on it, so that one place does not wait for another.
+    /// Finds where the samples at (u, v), unwrapped, stand. True if they stand in columns and rows,
+    /// and no texel is across a border. No branch depends on it, so that one place does not wait
+    /// for another.
     #[inline(always)]
     pub(super) fn find<const CLAMPS: bool>(
         &self,
         s: S,
-        [u, v]: [&Values<f32>; 2],
-        colors: &mut Answers,
+        uv: [&Values<f32>; 2],
+        spot: &mut Spot,
     ) -> bool {
+        let (both, stands) = columns_and_rows(s, uv);
+        let [has_next, _] = self.place::<CLAMPS>(s, both, spot);
+        s.bits_of_mask(stands) & has_next == u16::MAX
+    }
+
+    /// Finds where columns and rows stand whose coordinates, unwrapped, are given. Returns those
+    /// whose texel has a neighbour, and those that are as far from the first column, or row, as
+    /// they would be if all were neighbours.
+    #[inline(always)]
+    pub(super) fn place<const CLAMPS: bool>(
+        &self,
+        s: S,
+        both: f32x16<S>,
+        [fractions, texels]: &mut Spot,
+    ) -> [u16; 2] {
         let mode = if CLAMPS {
             AddressMode::ClampToEdge
         } else {
             self.mode
         };
-        let (u, v) = (
-            f32x16::load_array_ref(s, &u.0),
-            f32x16::load_array_ref(s, &v.0),
-        );
-        let stands: mask32x16<S> = u.simd_eq(s.first_row(u)) & v.simd_eq(s.first_column(v));
-        let both = s.columns_and_rows(u, v);
         let Place { texel, fraction } =
             place_by_lane(wrap(both, mode), self.lengths, self.last, mode);
         let last: i32x16<S> = self.last.to_int_within_range();
         let [texel, end]: [u32x16<S>; 2] = [texel.bitcast(), last.bitcast()];
+        *fractions = packet(fraction, 0);
+        *texels = packet(texel.bitcast::<f32x16<S>>(), 0);
         // Lanes after the first eight repeat them.
         let has_next: mask32x16<S> = texel.simd_lt(end);
-        colors[FRACTIONS] = packet(fraction, 0);
-        colors[TEXELS] = packet(texel.bitcast::<f32x16<S>>(), 0);
-        s.bits_of_mask(stands & has_next) == u16::MAX
+        [s.bits_of_mask(has_next), neighbours(s, texel)]
     }
 
     /// The colours of a block.
@@ -195,7 +204,7 @@ impl<'a, S: SimdLanes> BlockLevel<'a, S> {
     #[inline(always)]
     fn neighbours(&self, s: S, footprint: Footprint<'_>) -> Option<[f32x16<S>; 4]> {
         let across = footprint.across(s);
-        let mut left = self.texels_from(footprint.texel(0), footprint.texel(4))?;
+        let mut left = self.texels_from(footprint.column(0), footprint.row(0))?;
         let mut upper = across;
         let mut filtered = [across; 4];
         let mut row = 0;
@@ -220,16 +229,17 @@ impl<'a, S: SimdLanes> BlockLevel<'a, S> {
     fn apart(&self, s: S, footprint: Footprint<'_>) -> Option<[f32x16<S>; 4]> {
         let mut lines = [footprint.across(s); MOST_LINES];
         // Rows go down or, in a mirrored texture, up.
-        let [first, last] = [footprint.texel(4), footprint.texel(7)];
+        let [first, last] = [footprint.row(0), footprint.row(3)];
         let top = Ord::min(first, last);
         let bottom = Ord::max(first, last) + 1;
         let lines = lines.get_mut(..=(bottom - top).cast_unsigned() as usize)?;
-        self.lines(s, footprint, top, lines)?;
+        let columns = (footprint, footprint.columns_are_neighbours());
+        self.lines(s, columns, top, lines)?;
         let mut filtered = [lines[0]; 4];
         let mut row = 0;
         while row < 4 {
             // In a mirrored texture, a row between may be beyond the first and the last.
-            let at = footprint.texel(4 + row).wrapping_sub(top).cast_unsigned() as usize;
+            let at = footprint.row(row).wrapping_sub(top).cast_unsigned() as usize;
             let &[upper, lower] = lines.get(at..)?.first_chunk()?;
             filtered[row] = upper + (lower - upper) * footprint.down(s, row);
             row += 1;
@@ -237,22 +247,21 @@ impl<'a, S: SimdLanes> BlockLevel<'a, S> {
         Some(filtered)
     }
 
-    /// Rows of texels from `top` on, filtered between the texels of a block's columns; `None` if
-    /// these are not among eight, or not in memory.
+    /// Rows of texels from `top` on, filtered between the texels of a block's columns, which are
+    /// neighbours, or not; `None` if these are not among eight, or not in memory.
     #[inline(always)]
     pub(super) fn lines(
         &self,
         s: S,
-        footprint: Footprint<'_>,
+        (footprint, are_neighbours): (Footprint<'_>, bool),
         top: i32,
         lines: &mut [f32x16<S>],
     ) -> Option<()> {
         let across = footprint.across(s);
-        let [first, second, third, fourth] = footprint.columns();
         // Columns go to the right or, in a mirrored texture, to the left.
-        let left = Ord::min(first, fourth);
+        let left = Ord::min(footprint.column(0), footprint.column(3));
         let mut texels = self.texels_from(left, top)?;
-        if [second, third, fourth] == [first + 1, first + 2, first + 3] {
+        if are_neighbours {
             for (at, line) in lines.iter_mut().enumerate() {
                 if at > 0 {
                     texels = texels.get(self.row_words..)?;
@@ -283,6 +292,15 @@ impl<'a, S: SimdLanes> BlockLevel<'a, S> {
         Some(())
     }
 
+    /// The image's words, and how many a row has.
+    #[inline(always)]
+    pub(super) fn rows(&self) -> (&'a [u32], usize) {
+        (
+            self.texels.get(self.begin..).unwrap_or_default(),
+            self.row_words,
+        )
+    }
+
     /// The words from a texel on; `None` if it is not in memory.
     #[inline(always)]
     fn texels_from(&self, column: i32, row: i32) -> Option<&[u32]> {
@@ -304,64 +322,93 @@ fn neighbours_across<S: SimdLanes>(
     Some(left + (right - left) * across)
 }
 
+/// The coordinates of the columns and rows of the samples at (u, v), and the lanes that stand in
+/// them.
+#[inline(always)]
+pub(super) fn columns_and_rows<S: SimdLanes>(
+    s: S,
+    [u, v]: [&Values<f32>; 2],
+) -> (f32x16<S>, mask32x16<S>) {
+    let (u, v) = (
+        f32x16::load_array_ref(s, &u.0),
+        f32x16::load_array_ref(s, &v.0),
+    );
+    let stands = u.simd_eq(s.first_row(u)) & v.simd_eq(s.first_column(v));
+    (s.columns_and_rows(u, v), stands)
+}
+
+/// The columns, and the rows, that are as far from the first one as neighbours would be.
+#[inline(always)]
+fn neighbours<S: SimdLanes>(s: S, texel: u32x16<S>) -> u16 {
+    let first = texel - u32x16::load_array(s, [0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3]);
+    let order = u32x16::load_array(s, [0, 0, 0, 0, 4, 4, 4, 4, 0, 0, 0, 0, 4, 4, 4, 4]);
+    let is_same: mask32x16<S> = first.simd_eq(s.permute(first, order));
+    s.bits_of_mask(is_same)
+}
+
 /// Where the samples of a block stand in a level: in memory, so that numbers of texels are loaded
-/// where addresses need them, and the weights of rows are operands in memory.
+/// where addresses need them, and the weights of rows are operands in memory. Texels have a
+/// neighbour.
 #[derive(Clone, Copy)]
 pub(super) struct Footprint<'a> {
-    /// The left texel of each column, then the upper one of each row, in the order of
-    /// [`columns_and_rows`](SimdLanes::columns_and_rows). Texels have a neighbour.
-    texels: &'a Values<u32>,
-    /// The position of each sample between its texel and the next: the weight of the next one.
-    fractions: &'a Values<f32>,
+    /// The spot of the columns.
+    pub(super) columns: &'a Spot,
+    /// The spot of the rows.
+    pub(super) rows: &'a Spot,
 }
 
 impl<'a> Footprint<'a> {
-    /// The footprint that [`BlockLevel::find`] stored in these colours.
+    /// The footprint whose columns and rows are of one spot.
     #[inline(always)]
-    pub(super) fn of(colors: &'a Answers) -> Self {
+    pub(super) fn of(spot: &'a Spot) -> Self {
         Self {
-            texels: &words_of(colors)[TEXELS],
-            fractions: &colors[FRACTIONS],
+            columns: spot,
+            rows: spot,
         }
     }
 
-    /// The left texel of a column, 0 to 3, or the upper one of a row, 4 to 7.
+    /// The left texel of a column, 0 to 3.
     #[inline(always)]
-    pub(super) fn texel(&self, at: usize) -> i32 {
-        self.texels.0[at].cast_signed()
+    pub(super) fn column(&self, at: usize) -> i32 {
+        words_of(self.columns)[1].0[at].cast_signed()
     }
 
-    /// True if columns and rows are each four neighbours.
+    /// The upper texel of a row, 0 to 3.
+    #[inline(always)]
+    pub(super) fn row(&self, at: usize) -> i32 {
+        words_of(self.rows)[1].0[4 + at].cast_signed()
+    }
+
+    /// True if columns and rows are each four neighbours, of a footprint that is [of](Self::of) one
+    /// spot.
     #[inline(always)]
     pub(super) fn are_neighbours<S: SimdLanes>(&self, s: S) -> bool {
-        let at = u32x16::load_array_ref(s, &self.texels.0);
-        let first = at - u32x16::load_array(s, [0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3]);
-        let order = u32x16::load_array(s, [0, 0, 0, 0, 4, 4, 4, 4, 0, 0, 0, 0, 4, 4, 4, 4]);
-        let is_same: mask32x16<S> = first.simd_eq(s.permute(first, order));
-        s.bits_of_mask(is_same) == u16::MAX
+        let texel = u32x16::load_array_ref(s, &words_of(self.columns)[1].0);
+        neighbours(s, texel) == u16::MAX
     }
 
-    /// The left texel of each column.
+    /// True if the columns are four neighbours.
     #[inline(always)]
-    fn columns(&self) -> [i32; 4] {
-        [self.texel(0), self.texel(1), self.texel(2), self.texel(3)]
+    pub(super) fn columns_are_neighbours(&self) -> bool {
+        let first = self.column(0);
+        [self.column(1), self.column(2), self.column(3)] == [first + 1, first + 2, first + 3]
     }
 
-    /// [`columns`](Self::columns) in lanes 0 to 3.
+    /// The left texel of each column in lanes 0 to 3.
     #[inline(always)]
     fn columns_of<S: SimdLanes>(&self, s: S) -> i32x16<S> {
-        u32x16::load_array_ref(s, &self.texels.0).bitcast()
+        u32x16::load_array_ref(s, &words_of(self.columns)[1].0).bitcast()
     }
 
     /// The weight of each column's right texel, four times.
     #[inline(always)]
     fn across<S: SimdLanes>(&self, s: S) -> f32x16<S> {
-        s.spread_columns(f32x16::load_array_ref(s, &self.fractions.0))
+        s.spread_columns(f32x16::load_array_ref(s, &self.columns[0].0))
     }
 
     /// The weight of a row's lower texels.
     #[inline(always)]
     pub(super) fn down<S: SimdLanes>(&self, s: S, row: usize) -> f32x16<S> {
-        SimdBase::splat(s, self.fractions.0[4 + row])
+        SimdBase::splat(s, self.rows[0].0[4 + row])
     }
 }

@@ -11,18 +11,22 @@
 //! (a border, an offset, a cube's edge), the scalar code samples the lane again: there are few such
 //! lanes.
 
+mod ahead;
 mod batch;
 mod block;
 mod bytes;
 mod each_level;
 mod face;
+mod filter;
 mod footprint;
 mod inside;
 mod places;
+mod shifts;
 mod taps;
 
 pub(crate) use super::packet_texel::PacketFormat;
 pub(crate) use each_level::LevelTable;
+pub use shifts::TapShifts;
 pub(super) use taps::MOST_TAPS;
 
 use super::coordinates::{Answers, answer, load, packet};

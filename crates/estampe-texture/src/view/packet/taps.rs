@@ -1,5 +1,6 @@
-//! Samples of one texture at several places, which are blocks of pixels: the taps of a filter, or a
-//! place in each packet of a batch.
+//! Samples of one texture at several places, which are blocks of pixels: the taps of a filter whose
+//! places are known when the shader has computed them. (Taps at shifts that are known before are in
+//! `filter.rs`.)
 //!
 //! First all places are found, then all are filtered: the steps that lead to a place take long, and
 //! no place waits for another. Taps whose u is the same read the same columns of texels, so a row
@@ -7,9 +8,8 @@
 //! filter, which stand in five columns, 56 rows of texels in place of 104. The arithmetic of each
 //! place is that of `block.rs`, in the same order, so the bits are the same.
 
-use super::block::{BlockLevel, Footprint};
+use super::block::{BlockLevel, Footprint, Spot};
 use crate::PacketPlaces;
-use crate::view::blocks::blocks_ahead;
 use crate::view::coordinates::{Answers, packet};
 use crate::view::packet_texel::RGBA16F;
 use crate::view::{PacketLod, SampledTexture};
@@ -23,10 +23,7 @@ use estampe_types::AddressMode;
 pub(in crate::view) const MOST_TAPS: usize = LANES;
 
 /// The most rows of texels of taps that share their columns, less one: a power of two.
-const MOST_LINES: usize = 16;
-
-/// How many blocks before it is sampled a block is prefetched: those of a batch.
-const AHEAD: u32 = 16;
+pub(super) const MOST_LINES: usize = 16;
 
 /// Which of several places were sampled, and how: bit `i` is place `i`.
 #[derive(Debug, Clone, Copy, Default)]
@@ -38,16 +35,15 @@ struct Taps {
 }
 
 impl SampledTexture {
-    /// Samples the finest level at several places (u, v), as far as they are blocks; returns the
-    /// others, of which nothing is stored that counts: bit `i` is place `i`. `TAPS` says that the
-    /// places are of the same fragments, and not of those of packet after packet.
-    pub(crate) fn sample_blocks<const TAPS: bool>(
+    /// Samples the finest level at several places (u, v) of the same fragments, as far as they are
+    /// blocks; returns the others, of which nothing is stored that counts: bit `i` is place `i`.
+    pub(crate) fn sample_blocks(
         &self,
         lod: PacketLod,
         places: &PacketPlaces<'_>,
         colors: &mut [Answers],
     ) -> u32 {
-        self.sample_taps::<TAPS>(lod, places, colors).others
+        self.sample_taps(lod, places, colors).others
     }
 
     /// How many of several places in the finest level share rows of texels; tests see by it which
@@ -57,7 +53,7 @@ impl SampledTexture {
     pub fn sharing_taps(&self, at: &[[Values<f32>; 2]]) -> u32 {
         let mut colors = vec![Answers::default(); at.len()];
         let places = PacketPlaces::of_pairs(at);
-        let taps = self.sample_taps::<true>(PacketLod::Level, &places, &mut colors);
+        let taps = self.sample_taps(PacketLod::Level, &places, &mut colors);
         taps.sharing.count_ones()
     }
 
@@ -71,7 +67,7 @@ impl SampledTexture {
         is_finest && has_halves && self.is_simple
     }
 
-    fn sample_taps<const TAPS: bool>(
+    fn sample_taps(
         &self,
         lod: PacketLod,
         places: &PacketPlaces<'_>,
@@ -91,75 +87,66 @@ impl SampledTexture {
             };
             // Clamping is most common, and needs few of the constants that wrapping does.
             if level.mode == AddressMode::ClampToEdge {
-                self.sample_at_level::<_, true, TAPS>(s, &level, places, colors)
+                level.sample_each::<true>(s, places, colors)
             } else {
-                self.sample_at_level::<_, false, TAPS>(s, &level, places, colors)
+                level.sample_each::<false>(s, places, colors)
             }
         }, others => none)
     }
+}
 
+/// A bit for each of so many places.
+pub(super) fn all_of(count: usize) -> u32 {
+    (1 << count.min(MOST_TAPS)) - 1
+}
+
+impl<S: SimdLanes> BlockLevel<'_, S> {
     /// Samples at several places (u, v), as far as they are blocks. `CLAMPS` says that the mode is
     /// to clamp.
     #[inline(always)]
-    fn sample_at_level<S: SimdLanes, const CLAMPS: bool, const TAPS: bool>(
+    fn sample_each<const CLAMPS: bool>(
         &self,
         s: S,
-        level: &BlockLevel<'_, S>,
         places: &PacketPlaces<'_>,
         colors: &mut [Answers],
     ) -> Taps {
+        let mut spots = [Spot::default(); MOST_TAPS];
         let (mut blocks, mut first_lanes) = (0, Values([0; LANES]));
-        for (at, (uv, colors)) in places.each().zip(colors.iter_mut()).enumerate() {
-            blocks |= u32::from(level.find::<CLAMPS>(s, uv, colors)) << at;
-            first_lanes.0[at % LANES] = uv[0].0[0].to_bits();
+        for (at, (uv, spot)) in places.each().zip(&mut spots).enumerate() {
+            blocks |= u32::from(self.find::<CLAMPS>(s, uv, spot)) << at;
+            first_lanes.0[at] = uv[0].0[0].to_bits();
         }
-        let mut taps = Taps::default();
-        if TAPS {
-            let taken = (places, &first_lanes, blocks);
-            taps.sharing = level.sample_sharing::<CLAMPS>(s, taken, colors);
-        }
-        let mut left = blocks & !taps.sharing;
+        let found = (&spots, &first_lanes, blocks);
+        let sharing = self.sample_sharing::<CLAMPS>(s, places, found, colors);
+        let mut left = blocks & !sharing;
         while left != 0 {
             let at = left.trailing_zeros() as usize;
             left &= left - 1;
             let Some(colors) = colors.get_mut(at) else {
                 break;
             };
-            let footprint = Footprint::of(colors);
-            let are_neighbours = footprint.are_neighbours(s);
-            if !TAPS && are_neighbours {
-                // A sample at the centre of a texel may be just before it.
-                let block = [footprint.texel(0) + 1, footprint.texel(4) + 1];
-                if let Some(ahead) = blocks_ahead(block, AHEAD) {
-                    self.view.prefetch_blocks(s, &self.view.planes[0], ahead);
-                }
-            }
-            match level.filter(s, footprint, are_neighbours) {
+            let footprint = Footprint::of(&spots[at % MOST_TAPS]);
+            match self.filter(s, footprint, footprint.are_neighbours(s)) {
                 Some([r, g, b, a]) => {
                     *colors = [packet(r, 0), packet(g, 0), packet(b, 0), packet(a, 0)];
                 }
                 None => blocks &= !(1 << at),
             }
         }
-        taps.others = all_of(colors.len()) & !blocks;
-        taps
+        Taps {
+            others: all_of(colors.len()) & !blocks,
+            sharing,
+        }
     }
-}
 
-/// A bit for each of so many places.
-fn all_of(count: usize) -> u32 {
-    (1 << count.min(MOST_TAPS)) - 1
-}
-
-impl<S: SimdLanes> BlockLevel<'_, S> {
     /// Samples taps whose u is that of other taps, which most differ in the first lane already;
-    /// returns which were sampled. The footprints of blocks have been found; those of the others
-    /// are left as they are.
+    /// returns which were sampled. The spots of blocks have been found.
     #[inline(always)]
     fn sample_sharing<const CLAMPS: bool>(
         &self,
         s: S,
-        (places, first_lanes, blocks): (&PacketPlaces<'_>, &Values<u32>, u32),
+        places: &PacketPlaces<'_>,
+        (spots, first_lanes, blocks): (&[Spot; MOST_TAPS], &Values<u32>, u32),
         colors: &mut [Answers],
     ) -> u32 {
         let (mut groups, mut count) = ([0; MOST_TAPS / 2], 0);
@@ -180,7 +167,7 @@ impl<S: SimdLanes> BlockLevel<'_, S> {
             // Rows of texels, filtered along x, of one group after the other.
             let mut lines = [self.lengths; MOST_LINES + 1];
             for &taps in groups.iter().take(count) {
-                if self.sample_group::<CLAMPS>(s, (places, taps), colors, &mut lines) {
+                if self.sample_group::<CLAMPS>(s, places, (spots, taps), colors, &mut lines) {
                     sharing |= taps;
                 }
             }
@@ -194,66 +181,114 @@ impl<S: SimdLanes> BlockLevel<'_, S> {
     fn sample_group<const CLAMPS: bool>(
         &self,
         s: S,
-        (places, taps): (&PacketPlaces<'_>, u32),
+        places: &PacketPlaces<'_>,
+        (spots, taps): (&[Spot; MOST_TAPS], u32),
         colors: &mut [Answers],
         lines: &mut [f32x16<S>; MOST_LINES + 1],
     ) -> bool {
-        let first = taps.trailing_zeros() as usize;
-        let (Some(of_first), Some(u)) = (colors.get(first), places.u_of(first)) else {
+        let first = taps.trailing_zeros() as usize % MOST_TAPS;
+        let Some(u) = places.u_of(first) else {
             return false;
         };
         let bits: u32x16<S> = f32x16::load_array_ref(s, &u.0).bitcast();
         let mut different: u32x16<S> = SimdBase::splat(s, 0);
-        let (mut top, mut bottom) = (i32::MAX, 0);
+        let mut lines_of = Lines::NONE;
         let mut left = taps;
         while left != 0 {
-            let at = left.trailing_zeros() as usize;
+            let at = left.trailing_zeros() as usize % MOST_TAPS;
             left &= left - 1;
-            let (Some(colors), Some(u)) = (colors.get(at), places.u_of(at)) else {
+            let Some(u) = places.u_of(at) else {
                 return false;
             };
             let of_tap: u32x16<S> = f32x16::load_array_ref(s, &u.0).bitcast();
             different |= of_tap ^ bits;
-            let footprint = Footprint::of(colors);
-            let mut row = 4;
-            while row < 8 {
-                // In a mirrored texture, any row may be the first or the last.
-                if !CLAMPS || row == 4 || row == 7 {
-                    top = top.min(footprint.texel(row));
-                    bottom = bottom.max(footprint.texel(row));
-                }
-                row += 1;
-            }
+            lines_of.add::<CLAMPS>(Footprint::of(&spots[at]));
         }
         let is_same: mask32x16<S> = different.simd_eq(u32x16::splat(s, 0));
-        let last = (bottom - top).cast_unsigned() as usize + 1;
-        if last >= MOST_LINES || s.bits_of_mask(is_same) != u16::MAX {
-            return false;
-        }
-        let columns = Footprint::of(of_first);
-        if self.lines(s, columns, top, &mut lines[..=last]).is_none() {
+        let columns = Footprint::of(&spots[first]);
+        let are_neighbours = columns.columns_are_neighbours();
+        if s.bits_of_mask(is_same) != u16::MAX
+            || !self.filter_lines(s, (columns, are_neighbours), &lines_of, lines)
+        {
             return false;
         }
         let mut left = taps;
         while left != 0 {
-            let Some(colors) = colors.get_mut(left.trailing_zeros() as usize) else {
+            let at = left.trailing_zeros() as usize % MOST_TAPS;
+            left &= left - 1;
+            let Some(colors) = colors.get_mut(at) else {
                 return false;
             };
-            left &= left - 1;
-            let footprint = Footprint::of(colors);
-            let mut filtered = [lines[0]; 4];
-            let mut row = 0;
-            while row < 4 {
-                let line = footprint.texel(4 + row).wrapping_sub(top).cast_unsigned() as usize;
-                // Below the number of lines already: without a test.
-                let line = line % MOST_LINES;
-                let (upper, lower) = (lines[line], lines[line + 1]);
-                filtered[row] = upper + (lower - upper) * footprint.down(s, row);
-                row += 1;
-            }
-            let [r, g, b, a] = s.channels_of_rows(filtered);
+            let [r, g, b, a] = lines_of.between(s, Footprint::of(&spots[at]), lines);
             *colors = [packet(r, 0), packet(g, 0), packet(b, 0), packet(a, 0)];
         }
         true
+    }
+
+    /// Filters rows of texels along x for taps of the same columns. False if the rows are too many,
+    /// or texels far apart or not in memory.
+    #[inline(always)]
+    pub(super) fn filter_lines(
+        &self,
+        s: S,
+        columns: (Footprint<'_>, bool),
+        of: &Lines,
+        lines: &mut [f32x16<S>; MOST_LINES + 1],
+    ) -> bool {
+        let last = of.bottom.wrapping_sub(of.top).cast_unsigned() as usize + 1;
+        last < MOST_LINES
+            && self
+                .lines(s, columns, of.top, &mut lines[..=last])
+                .is_some()
+    }
+}
+
+/// The rows of texels that taps of the same columns share.
+pub(super) struct Lines {
+    /// The first row.
+    top: i32,
+    /// The last row but one.
+    bottom: i32,
+}
+
+impl Lines {
+    pub(super) const NONE: Self = Self {
+        top: i32::MAX,
+        bottom: 0,
+    };
+
+    /// Adds those of a tap.
+    #[inline(always)]
+    pub(super) fn add<const CLAMPS: bool>(&mut self, tap: Footprint<'_>) {
+        let mut row = 0;
+        while row < 4 {
+            // In a mirrored texture, any row may be the first or the last.
+            if !CLAMPS || row == 0 || row == 3 {
+                self.top = self.top.min(tap.row(row));
+                self.bottom = self.bottom.max(tap.row(row));
+            }
+            row += 1;
+        }
+    }
+
+    /// The channels of a tap whose rows are between these, which are filtered along x.
+    #[inline(always)]
+    pub(super) fn between<S: SimdLanes>(
+        &self,
+        s: S,
+        tap: Footprint<'_>,
+        lines: &[f32x16<S>; MOST_LINES + 1],
+    ) -> [f32x16<S>; 4] {
+        let mut filtered = [lines[0]; 4];
+        let mut row = 0;
+        while row < 4 {
+            let line = tap.row(row).wrapping_sub(self.top).cast_unsigned() as usize;
+            // Below the number of lines already: without a test.
+            let line = line % MOST_LINES;
+            let (upper, lower) = (lines[line], lines[line + 1]);
+            filtered[row] = upper + (lower - upper) * tap.down(s, row);
+            row += 1;
+        }
+        s.channels_of_rows(filtered)
     }
 }

@@ -1,0 +1,112 @@
+//! The texels that a filter reads for the next batch of packets, brought to the cache while it
+//! filters this one.
+//!
+//! What pass after pass reads lies in no cache near the processor, as images are large, and the
+//! rows of a tile are too short for the processor to foresee. A batch is a square of 16×16 pixels,
+//! whose texels are a window: as many as pixels, or several times as many, and those that taps
+//! beside the place reach.
+
+use super::shifts::TapShifts;
+use crate::view::blocks::blocks_ahead;
+use crate::view::plane::Plane;
+use estampe_simd::{LANES, Lanes, Packet as Values};
+
+/// The pixels along a side of a batch, and the packets.
+const SIDE: i32 = 16;
+const PACKETS: usize = 16;
+
+/// The words of a texel, and of a cache line.
+const WORDS: usize = 2;
+const LINE: usize = 16;
+
+/// More pixels than any image has along a side.
+const MOST_PIXELS: i32 = 1 << 20;
+
+/// The most texels between one pixel and the next.
+const MOST_STEP: f32 = 4.0;
+
+/// The lines of a window of texels that are not prefetched yet.
+#[derive(Debug, Default)]
+pub(super) struct Ahead<'a> {
+    /// From the next row's first word on.
+    texels: &'a [u32],
+    row_words: usize,
+    /// The lines of each row.
+    lines: usize,
+    /// The rows that are left, and those of a packet.
+    rows: usize,
+    rows_of_packet: usize,
+}
+
+impl<'a> Ahead<'a> {
+    /// The window of the batch after the one whose first packet is at (u, v), in a level whose
+    /// texels these are; none if it does not begin at a square of 16×16 pixels.
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "numbers of texels, and of packets"
+    )]
+    pub(super) fn new(
+        (texels, row_words): (&'a [u32], usize),
+        plane: &Plane,
+        [u, v]: [&Values<f32>; 2],
+        shifts: &TapShifts,
+    ) -> Self {
+        // Lanes 5 and 10 are the last column and row.
+        let along = [(u, 5), (v, 10)];
+        let mut window = [[0_i32; 2]; 2];
+        let mut steps = [0.0; 2];
+        let mut pixel = [0; 2];
+        for (axis, (at, last)) in along.into_iter().enumerate() {
+            let first = at.0[0] * plane.size[axis];
+            let step = (at.0[last] * plane.size[axis] - first) / 3.0;
+            if !(0.9..=MOST_STEP).contains(&step) {
+                return Self::default();
+            }
+            steps[axis] = step;
+            pixel[axis] = (first / step) as i32;
+        }
+        let begins_batch = pixel
+            .iter()
+            .all(|pixel| (0..MOST_PIXELS).contains(pixel) && pixel % SIDE < 4);
+        let next = blocks_ahead(pixel, PACKETS as u32).filter(|_| begins_batch);
+        let Some(next) = next else {
+            return Self::default();
+        };
+        for axis in 0..2 {
+            let (step, size) = (steps[axis], plane.size[axis]);
+            let [least, greatest] = shifts.extents[axis].map(|shift| shift * size);
+            let first = (next[axis] as f32 * step + least) as i32;
+            let last = ((next[axis] + SIDE) as f32 * step + greatest) as i32;
+            let most = plane.sides[axis] - 1;
+            let first = first.clamp(0, most);
+            // A filter reaches the texel after, and is never wider than a few squares.
+            window[axis] = [first, last.clamp(first, most.min(first + 8 * SIDE))];
+        }
+        let [columns, rows] = window.map(|[first, last]| {
+            let count = last - first + 1;
+            [first, count].map(|number| number.cast_unsigned() as usize)
+        });
+        let first = rows[0] * row_words + columns[0] * WORDS;
+        Self {
+            texels: texels.get(first..).unwrap_or_default(),
+            row_words,
+            lines: (columns[1] * WORDS).div_ceil(LINE) + 1,
+            rows: rows[1],
+            rows_of_packet: rows[1].div_ceil(PACKETS),
+        }
+    }
+
+    /// Prefetches the share of a packet.
+    #[inline(always)]
+    pub(super) fn step<S: Lanes>(&mut self, s: S) {
+        let rows = self.rows_of_packet.min(self.rows);
+        self.rows -= rows;
+        for _ in 0..rows {
+            let lines = self.texels.iter().step_by(LINE).take(self.lines);
+            lines.for_each(|word| s.prefetch(word));
+            self.texels = self.texels.get(self.row_words..).unwrap_or_default();
+        }
+    }
+}
+
+const _: () = assert!(LINE == LANES, "a line has the words of a packet");

@@ -1,0 +1,139 @@
+//! [`TapShifts`]: where the taps of a filter stand, beside a place that differs from packet to packet.
+
+use super::taps::MOST_TAPS;
+use estampe_simd::{LANES, Packet as Values};
+
+/// The shifts (u, v) of up to sixteen taps of a filter, and which of them stand in the same columns
+/// and rows.
+#[derive(Debug, Clone)]
+pub struct TapShifts {
+    /// By tap.
+    of_taps: [[f32; 2]; MOST_TAPS],
+    count: usize,
+    /// The shifts of u in the lanes of columns, and those of v in the lanes of rows, each once, in
+    /// the order of [`columns_and_rows`](estampe_simd::Lanes::columns_and_rows). If there are fewer
+    /// of one, its first is repeated.
+    pub(super) spots: [Values<f32>; MOST_TAPS],
+    /// The number of them that count.
+    pub(super) spot_count: usize,
+    /// For each shift of u its taps: bit `i` is tap `i`.
+    pub(super) columns: [u32; MOST_TAPS],
+    /// For each tap the number of its shift of v.
+    rows: [u8; MOST_TAPS],
+    /// For each shift of u the numbers of the least and the greatest shift of v of its taps.
+    pub(super) ends: [[u8; 2]; MOST_TAPS],
+    /// The least and the greatest shift of u, then of v.
+    pub(super) extents: [[f32; 2]; 2],
+    /// True if all shifts are finite, so that greater shifts lead to greater coordinates.
+    pub(super) is_finite: bool,
+}
+
+impl TapShifts {
+    /// One tap, at the place itself: unlike +0, −0 changes no coordinate.
+    pub const UNSHIFTED: Self = Self {
+        of_taps: [[-0.0; 2]; MOST_TAPS],
+        count: 1,
+        spots: [Values([-0.0; LANES]); MOST_TAPS],
+        spot_count: 1,
+        columns: {
+            let mut columns = [0; MOST_TAPS];
+            columns[0] = 1;
+            columns
+        },
+        rows: [0; MOST_TAPS],
+        ends: [[0; 2]; MOST_TAPS],
+        extents: [[-0.0; 2]; 2],
+        is_finite: true,
+    };
+
+    /// The shifts of each tap. Those beyond sixteen do not count.
+    #[must_use]
+    #[expect(clippy::cast_possible_truncation, reason = "numbers of taps")]
+    pub fn new(of_taps: &[[f32; 2]]) -> Self {
+        let count = of_taps.len().min(MOST_TAPS);
+        let of_taps = &of_taps[..count];
+        let mut shifts = Self {
+            count,
+            columns: [0; MOST_TAPS],
+            is_finite: of_taps.as_flattened().iter().all(|shift| shift.is_finite()),
+            ..Self::UNSHIFTED
+        };
+        shifts.of_taps[..count].copy_from_slice(of_taps);
+        let (mut along_u, mut along_v) = (Axis::default(), Axis::default());
+        for (tap, [u, v]) in of_taps.iter().enumerate() {
+            let (column, row) = (along_u.number_of(*u), along_v.number_of(*v));
+            let [least, greatest] = &mut shifts.ends[column];
+            let is_first = shifts.columns[column] == 0;
+            if is_first || *v < along_v.values[usize::from(*least)] {
+                *least = row as u8;
+            }
+            if is_first || *v > along_v.values[usize::from(*greatest)] {
+                *greatest = row as u8;
+            }
+            shifts.columns[column] |= 1 << tap;
+            shifts.rows[tap] = row as u8;
+        }
+        shifts.extents = [along_u.extent(), along_v.extent()];
+        shifts.spot_count = along_u.count.max(along_v.count);
+        for (number, to) in shifts.spots[..shifts.spot_count].iter_mut().enumerate() {
+            let [u, v] = [along_u.get(number), along_v.get(number)];
+            for (lane, to) in to.0.iter_mut().enumerate() {
+                *to = if lane % 8 < 4 { u } else { v };
+            }
+        }
+        shifts
+    }
+
+    /// True if these are the shifts.
+    #[must_use]
+    pub fn are(&self, of_taps: &[[f32; 2]]) -> bool {
+        let known = self.of_taps().as_flattened().iter();
+        let asked = of_taps.as_flattened().iter();
+        known
+            .map(|shift| shift.to_bits())
+            .eq(asked.map(|shift| shift.to_bits()))
+    }
+
+    /// The shifts of each tap.
+    pub(crate) fn of_taps(&self) -> &[[f32; 2]] {
+        &self.of_taps[..self.count]
+    }
+
+    /// The number of a tap's shift of v.
+    #[inline(always)]
+    pub(super) fn row_of(&self, tap: usize) -> usize {
+        usize::from(self.rows[tap % MOST_TAPS]) % MOST_TAPS
+    }
+}
+
+/// The shifts along an axis, each once.
+#[derive(Default)]
+struct Axis {
+    values: [f32; MOST_TAPS],
+    count: usize,
+}
+
+impl Axis {
+    /// The number of a shift. Zeros of either sign are one: they move no sample.
+    fn number_of(&mut self, shift: f32) -> usize {
+        let known = self.values[..self.count].iter();
+        let number = known.take_while(|known| **known != shift).count();
+        if number == self.count {
+            self.values[number] = shift;
+            self.count += 1;
+        }
+        number
+    }
+
+    /// A shift; the first one for numbers that there are none of.
+    fn get(&self, number: usize) -> f32 {
+        self.values[if number < self.count { number } else { 0 }]
+    }
+
+    fn extent(&self) -> [f32; 2] {
+        let values = &self.values[..self.count];
+        let least = values.iter().copied().fold(f32::INFINITY, f32::min);
+        let greatest = values.iter().copied().fold(f32::NEG_INFINITY, f32::max);
+        [least, greatest]
+    }
+}
