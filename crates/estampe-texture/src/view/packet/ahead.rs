@@ -110,3 +110,49 @@ impl<'a> Ahead<'a> {
 }
 
 const _: () = assert!(LINE == LANES, "a line has the words of a packet");
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{MipGeneration, TexelDescriptor, TexelView, TextureFormat};
+    use estampe_simd::{LANE_X, LANE_Y};
+    use estampe_types::Limits;
+
+    /// The window after a batch whose first packet is at these pixels, of `step` texels each.
+    fn window(view: &TexelView, pixel: [i32; 2], step: f32, taps: &[[f32; 2]]) -> [usize; 4] {
+        let axis = |pixel: i32, lanes: [u8; LANES], size: f32| {
+            Values(lanes.map(|lane| (pixel as f32 + f32::from(lane) + 0.5) * step / size))
+        };
+        let plane = &view.planes[0];
+        let u = axis(pixel[0], LANE_X, plane.size[0]);
+        let v = axis(pixel[1], LANE_Y, plane.size[1]);
+        let texels = &view.texture.texels[..];
+        let row_words = plane.sides[0].cast_unsigned() as usize * WORDS;
+        let ahead = Ahead::new((texels, row_words), plane, [&u, &v], &TapShifts::new(taps));
+        let first = (texels.len() - ahead.texels.len()) / WORDS;
+        let side = row_words / WORDS;
+        [first % side, first / side, ahead.lines, ahead.rows]
+    }
+
+    #[test]
+    fn windows_are_those_of_the_next_squares() {
+        let descriptor = TexelDescriptor::new_2d(512, 256, TextureFormat::Rgba16Float);
+        let texture = descriptor.create(&[], MipGeneration::None, &Limits::default());
+        let view = TexelView::of(texture.expect("it is small")).expect("it has a level");
+        let centre = [[-0.0; 2]];
+        // To the right, then below: 17 texels along a side.
+        assert_eq!(window(&view, [0, 0], 1.0, &centre), [16, 0, 4, 17]);
+        assert_eq!(window(&view, [16, 0], 1.0, &centre), [0, 16, 4, 17]);
+        // The next tile.
+        assert_eq!(window(&view, [48, 48], 1.0, &centre), [64, 0, 4, 17]);
+        // Taps reach further.
+        let taps = [[0.0, -3.0 / 256.0], [4.0 / 512.0, 3.0 / 256.0]];
+        assert_eq!(window(&view, [16, 0], 1.0, &taps), [0, 13, 4, 23]);
+        // Two texels a pixel.
+        assert_eq!(window(&view, [16, 0], 2.0, &centre), [0, 32, 6, 33]);
+        // Not at a square, or with too many texels a pixel, or too few.
+        for (pixel, step) in [([4, 0], 1.0), ([0, 0], 5.0), ([0, 0], 0.5)] {
+            assert_eq!(window(&view, pixel, step, &centre)[3], 0);
+        }
+    }
+}

@@ -137,3 +137,45 @@ impl Axis {
         [least, greatest]
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn taps_of_a_square_stand_in_three_columns_and_rows() {
+        let at = |tap: usize| [tap / 3, tap % 3].map(|at| at as f32 - 1.0);
+        let taps: Vec<[f32; 2]> = (0..9).map(at).collect();
+        let shifts = TapShifts::new(&taps);
+        assert!(shifts.are(&taps) && !shifts.are(&taps[1..]) && shifts.is_finite);
+        assert_eq!(shifts.spot_count, 3);
+        assert_eq!(shifts.columns[..4], [0b111, 0b111_000, 0b111_000_000, 0]);
+        assert_eq!(shifts.ends[..3], [[0, 2]; 3]);
+        assert_eq!(shifts.extents, [[-1.0, 1.0]; 2]);
+        for tap in 0..9 {
+            assert_eq!(shifts.row_of(tap), tap % 3);
+        }
+        for (number, at) in [-1.0, 0.0, 1.0].into_iter().enumerate() {
+            assert_eq!(shifts.spots[number].0, [at; LANES]);
+        }
+    }
+
+    #[test]
+    fn zeros_are_one_shift_and_the_first_is_repeated() {
+        let shifts = TapShifts::new(&[[-0.0, 3.0], [0.0, -2.0], [0.0, 5.0]]);
+        assert_eq!((shifts.spot_count, shifts.columns[0]), (3, 0b111));
+        assert_eq!(shifts.ends[0], [1, 2]);
+        let [columns, rows] = [0, 4].map(|lane| shifts.spots[..3].iter().map(move |of| of.0[lane]));
+        assert!(columns.eq([0.0; 3]) && rows.eq([3.0, -2.0, 5.0]));
+    }
+
+    #[test]
+    fn shifts_that_are_no_numbers_are_no_order() {
+        let taps = [[f32::NAN, 0.0], [f32::NAN, 1.0]];
+        let shifts = TapShifts::new(&taps);
+        assert!(shifts.are(&taps) && !shifts.is_finite);
+        assert_eq!(shifts.spot_count, 2);
+        assert!(!TapShifts::new(&[[0.0, f32::INFINITY]]).is_finite);
+        assert!(TapShifts::UNSHIFTED.are(&[[-0.0; 2]]) && !TapShifts::UNSHIFTED.are(&[[0.0; 2]]));
+    }
+}
