@@ -98,8 +98,8 @@ pub struct Statistics {
     /// Triangles whose pixels were written together with those of another one before, which had the
     /// same colour everywhere, counted once for each tile that they touch.
     pub triangles_gathered: u64,
-    /// Triangles of one colour that shared sides and were covered as one polygon, once for each tile.
-    /// They depend on the SIMD level.
+    /// Triangles of one colour that shared sides and were covered as one polygon, once for each
+    /// tile. They depend on the SIMD level.
     #[doc(hidden)]
     pub triangles_in_fans: u64,
     /// Runs of opaque triangles, tile by tile, whose visible samples were shaded at the run's end:

@@ -7,7 +7,8 @@
 //! ```text
 //!   coverage ─▶ early tests ─▶ queue ─▶ shader ─▶ late tests ─▶ colours
 //!      ├─ large triangles, blended from their planes (`layers`)
-//!      ├─ two triangles that are a rectangle (`boxes`), more of one colour that share sides (`fan`)
+//!      ├─ two triangles that are a rectangle (`boxes`)
+//!      ├─ triangles of one colour that share sides (`fan`)
 //!      └─ small triangles and lines, sixteen at a time (`small`, `small_lines`)
 //! ```
 
