@@ -27,7 +27,7 @@ pub struct Code {
     pub(crate) isa: Isa,
     pub(crate) frame: Frame,
     pub(crate) served: Vec<Served>,
-    pub(crate) table_inputs: Vec<(usize, u32)>,
+    pub(crate) table_inputs: Vec<(u32, u32)>,
     pub(crate) fixed_words: Vec<u32>,
     pub(crate) input_types: Vec<Type>,
     pub(crate) output_types: Vec<Type>,

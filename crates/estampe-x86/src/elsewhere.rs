@@ -14,6 +14,18 @@ pub enum Code {}
 pub struct Scratch {}
 
 impl Scratch {
+    /// True if it was last used for this code.
+    #[must_use]
+    pub fn is_of(&self, code: &Code) -> bool {
+        match *code {}
+    }
+
+    /// The bytes of its memory.
+    #[must_use]
+    pub fn bytes(&self) -> usize {
+        0
+    }
+
     /// The jumps backwards of the last run of a code, about.
     #[must_use]
     pub fn jumps(&self, code: &Code, _: &Run<'_>) -> u64 {

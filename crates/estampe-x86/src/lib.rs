@@ -65,7 +65,7 @@
 //! | The kernel is well formed: values are defined before their uses, entries of the interface exist. | `Code::compile` verifies it |
 //! | A frame is as large as its layout with the states of all packets of a work-group, in units of lines, and was cleared when this code saw it first. | `run`: `make_room`; `enter` asserts it |
 //! | Places in the frame lie in their part of it. | `frame`: offsets are computed once, in checked arithmetic, and are below 64 MiB |
-//! | Inputs and outputs: each pointer has a packet (64 bytes of words, 2 of a mask) behind it, of the slice, or of the frame where the slice has none. | `places`, `run`: `set_pointers` |
+//! | Inputs and outputs: each pointer has a packet (64 bytes of words, 2 of a mask) behind it, of the slice, or of the frame where the slice has none. | `places`, `run`: `set_packet` |
 //! | Buffers at fixed places: as many words are there, if need be of a copy that ends in zeros. | `run`: `set_buffers` |
 //! | Buffers at computed places: the word's number is compared with the number of words, and lanes beyond neither read nor write. Nothing is stored to buffers that are bound for reading. | `select::memory`, `serve` |
 //! | Arrays: reads clamp the index, stores compare it. | `select::memory`, `serve` |

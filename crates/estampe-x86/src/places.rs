@@ -2,136 +2,120 @@
 
 use estampe_ir::Type;
 use estampe_ir::interpreter::{InputData, OutputData};
-use std::hint::select_unpredictable;
 
-/// Where the packets of an input or output are in a run.
+/// Where the packets of an input's or output's data are in a run.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Track {
-    /// The address of packet 0.
+    /// The type of the elements; `None` of data that are not in memory.
+    kind: Option<Type>,
+    /// The address of packet 0 of the first part.
     start: usize,
     /// The bytes from one packet to the next.
     step: usize,
-    /// The packets that are in memory, from the first on. The others are at a place that does not
-    /// move; all are, of an input that is the same in all packets or an output that goes nowhere.
-    packets: usize,
-    /// The address of that place.
-    still: usize,
+    /// The elements from one packet to the next.
+    stride: usize,
+    /// The elements from packet 0 of the first part on.
+    room: usize,
+    /// The first part of which not all packets of the run are in memory.
+    whole: usize,
 }
 
 impl Track {
-    /// Nowhere in memory, for all packets.
-    pub(crate) const STILL: Self = Self {
+    /// Of data that are not in memory.
+    pub(crate) const NOWHERE: Self = Self {
+        kind: None,
         start: 0,
         step: 0,
-        packets: 0,
-        still: 0,
+        stride: 0,
+        room: 0,
+        whole: 0,
     };
 
     /// The packets in a slice of which packet 0 is at `first`, and the others `stride` elements
-    /// after each other, up to the last packet of a run. `bytes` are those of an element.
+    /// after each other, in a run that ends with packet `last`.
     #[inline(always)]
-    fn new<T>(slice: &[T], (first, stride): (usize, usize), bytes: usize, last: usize) -> Self {
-        let Some(behind) = slice.len().checked_sub(first).filter(|len| *len > 0) else {
-            return Self::STILL;
-        };
-        let is_last_inside = last.checked_mul(stride).is_some_and(|last| last < behind);
+    fn new<T>(slice: &[T], (first, stride): (usize, usize), kind: Type, last: usize) -> Self {
+        let bytes = bytes_of(kind);
+        let room = slice.len().saturating_sub(first);
+        let whole = room.saturating_sub(last.saturating_mul(stride));
         Self {
-            // An element of the slice: no overflow.
-            start: slice.as_ptr().expose_provenance() + first * bytes,
-            // No overflow that counts: a packet that is reached by a step is inside.
+            kind: Some(kind),
+            // No overflow that counts: where there is no room, the address is not used.
+            start: (slice.as_ptr().expose_provenance()).wrapping_add(first.wrapping_mul(bytes)),
             step: stride.wrapping_mul(bytes),
-            packets: if is_last_inside {
-                last + 1
+            stride,
+            room,
+            whole: if kind == Type::Mask {
+                whole.min(1)
             } else {
-                // A stride of 0 leads nowhere else, so the last packet is then inside.
-                behind.div_ceil(stride)
+                whole
             },
-            still: 0,
         }
-    }
-
-    /// The same with an address for what is not in memory.
-    #[inline(always)]
-    pub(crate) fn or_still(self, still: usize) -> Self {
-        Self { still, ..self }
     }
 
     /// An input's packets.
     #[inline(always)]
-    pub(crate) fn of_input(input: &InputData<'_>, kind: Type, last: usize) -> Self {
-        let bytes = bytes_of(kind);
-        match (*input, kind) {
-            (
-                InputData::Words {
-                    packets,
-                    first,
-                    stride,
-                },
-                Type::Word,
-            ) => Self::new(packets, (first, stride), bytes, last),
-            (
-                InputData::Floats {
-                    packets,
-                    first,
-                    stride,
-                },
-                Type::Word,
-            ) => Self::new(packets, (first, stride), bytes, last),
-            (InputData::Mask(bits), Type::Mask) => Self::new(bits, (0, 1), bytes, last),
-            (InputData::SharedMask(bits), Type::Mask) => Self::new(bits, (0, 1), bytes, last),
-            _ => Self::STILL,
+    pub(crate) fn of_input(input: &InputData<'_>, last: usize) -> Self {
+        match *input {
+            InputData::Words {
+                packets,
+                first,
+                stride,
+            } => Self::new(packets, (first, stride), Type::Word, last),
+            InputData::Floats {
+                packets,
+                first,
+                stride,
+            } => Self::new(packets, (first, stride), Type::Word, last),
+            InputData::Mask(bits) => Self::new(bits, (0, 1), Type::Mask, last),
+            InputData::SharedMask(bits) => Self::new(bits, (0, 1), Type::Mask, last),
+            InputData::Uniform(_) | InputData::UniformWords(_) => Self::NOWHERE,
         }
     }
 
     /// An output's packets.
     #[inline(always)]
-    pub(crate) fn of_output(output: &OutputData<'_>, kind: Type, last: usize) -> Self {
-        let bytes = bytes_of(kind);
-        match (*output, kind) {
-            (
-                OutputData::Words {
-                    packets,
-                    first,
-                    stride,
-                },
-                Type::Word,
-            ) => Self::new(packets, (first, stride), bytes, last),
-            (
-                OutputData::Floats {
-                    packets,
-                    first,
-                    stride,
-                },
-                Type::Word,
-            ) => Self::new(packets, (first, stride), bytes, last),
-            (OutputData::Mask(bits), Type::Mask) => Self::new(bits, (0, 1), bytes, last),
-            _ => Self::STILL,
+    pub(crate) fn of_output(output: &OutputData<'_>, last: usize) -> Self {
+        match *output {
+            OutputData::Words {
+                packets,
+                first,
+                stride,
+            } => Self::new(packets, (first, stride), Type::Word, last),
+            OutputData::Floats {
+                packets,
+                first,
+                stride,
+            } => Self::new(packets, (first, stride), Type::Word, last),
+            OutputData::Mask(bits) => Self::new(bits, (0, 1), Type::Mask, last),
+            OutputData::Dropped => Self::NOWHERE,
         }
     }
 
-    /// True if a packet is where those before it lead: in memory, or where all are.
+    /// The address of a packet of a part, and the bytes to the next one, if all packets of the run
+    /// are in memory, of the type that is asked for.
     #[inline(always)]
-    pub(crate) fn has(&self, packet: usize) -> bool {
-        self.packets == 0 || packet < self.packets
+    pub(crate) fn whole_part(
+        &self,
+        kind: Type,
+        first: u32,
+        packet: usize,
+    ) -> Option<(usize, usize)> {
+        let is_whole = self.kind == Some(kind) && (first as usize) < self.whole;
+        // A mask has one part, at 0.
+        let part = self
+            .start
+            .wrapping_add(first as usize * bytes_of(Type::Word));
+        is_whole.then_some((part.wrapping_add(packet.wrapping_mul(self.step)), self.step))
     }
 
-    /// True if the packets up to this one are in memory.
-    #[inline(always)]
-    pub(crate) fn moves_up_to(&self, packet: usize) -> bool {
-        packet < self.packets
-    }
-
-    /// The address of a packet.
-    #[inline(always)]
-    pub(crate) fn address(&self, packet: usize) -> usize {
-        let address = self.start.wrapping_add(self.step.wrapping_mul(packet));
-        select_unpredictable(packet < self.packets, address, self.still)
-    }
-
-    /// The bytes from one packet to the next.
-    #[inline(always)]
-    pub(crate) fn step(&self) -> usize {
-        self.step
+    /// The address of a packet of a part, if it is in memory, of the type that is asked for.
+    pub(crate) fn packet_of_part(&self, kind: Type, first: u32, packet: usize) -> Option<usize> {
+        let is_part = self.kind == Some(kind) && (kind == Type::Word || first == 0);
+        let of_packet = packet.checked_mul(self.stride)?;
+        let element = of_packet.checked_add(first as usize)?;
+        let is_inside = is_part && element < self.room;
+        is_inside.then(|| self.start + element * bytes_of(kind))
     }
 }
 

@@ -6,7 +6,7 @@ use crate::frame::{self, PACKET};
 use crate::places::Track;
 use crate::serve::Context;
 use estampe_ir::Type;
-use estampe_ir::interpreter::{Buffer, InputData, Run, Stopped, Words};
+use estampe_ir::interpreter::{Buffer, InputData, Part, Run, Stopped, Words};
 use estampe_simd::Level;
 use std::cell::RefCell;
 use std::sync::atomic::AtomicU32;
@@ -22,7 +22,7 @@ pub struct Scratch {
     padded: Vec<Vec<u32>>,
     /// The memory of a work-group.
     workgroup: Vec<AtomicU32>,
-    /// Where the packets of the run are, of each input, then of each output.
+    /// Where the data of the run are.
     tracks: Vec<Track>,
 }
 
@@ -33,6 +33,19 @@ const LINE: u32 = PACKET;
 const WORDS: usize = LINE as usize / 8;
 
 impl Scratch {
+    /// True if it was last used for this code: for others the whole frame is cleared first.
+    #[must_use]
+    pub fn is_of(&self, code: &Code) -> bool {
+        self.code == code.id
+    }
+
+    /// The bytes of its memory.
+    #[must_use]
+    pub fn bytes(&self) -> usize {
+        let padded: usize = self.padded.iter().map(Vec::capacity).sum();
+        self.lines.capacity() * size_of::<Line>() + (self.workgroup.capacity() + padded) * 4
+    }
+
     /// The jumps backwards of the last run of a code, about: those of its last pass for every
     /// packet; of a work-group all.
     #[must_use]
@@ -73,7 +86,7 @@ impl Code {
             tracks,
             ..
         } = scratch;
-        self.find_packets(run, tracks, lines);
+        find_data(run, tracks);
         let context = Context {
             served: &self.served,
             frame: &self.frame,
@@ -109,7 +122,7 @@ impl Code {
     ) -> Result<(), Stopped> {
         let state_bytes = self.frame.state_bytes();
         for (packet, state) in (0..run.packets).zip((0..).step_by(state_bytes as usize)) {
-            self.set_packets(tracks, lines, (packet, 1), state);
+            self.set_packets((run, tracks), lines, (packet, 1), state);
         }
         set_head(lines, frame::PACKETS, run.packets as u64);
         match enter(&self.executable, self.packet, lines, context) {
@@ -126,8 +139,6 @@ impl Code {
         context: &Context<'_>,
     ) -> Result<(), Stopped> {
         let mut packet = 0;
-        // Where some slice is too short, the places of each pass are looked for.
-        let are_inside = tracks.iter().all(|track| track.has(run.packets - 1));
         while packet < run.packets && !context.has_panicked() {
             let left = run.packets - packet;
             // The last packet of an odd number runs alone.
@@ -135,8 +146,9 @@ impl Code {
                 Some(pair) if left > 1 => (pair, 2),
                 _ => (self.packet, 1),
             };
-            self.set_packets(tracks, lines, (packet, of_pass), 0);
-            let passes = if are_inside { left / of_pass } else { 1 };
+            // Where some slice is too short, the places of each pass are looked for.
+            let is_led = self.set_packets((run, tracks), lines, (packet, of_pass), 0);
+            let passes = if is_led { left / of_pass } else { 1 };
             set_head(lines, frame::LEFT, passes as u64);
             if enter(&self.executable, function, lines, context) != 0 {
                 return Err(Stopped::Budget);
@@ -177,7 +189,7 @@ impl Code {
     /// Inputs that are words of the table.
     fn set_table(&self, run: &Run<'_>, lines: &mut [Line]) {
         for &(at, slot) in &self.table_inputs {
-            let word = run.inputs.get(at).map_or(0, InputData::first_word);
+            let word = run.input(at).first_word();
             let offset = self.frame.slot(slot);
             for copy in 0..self.frame.slot_bytes / 4 {
                 set_word(lines, offset + copy * 4, word);
@@ -222,59 +234,105 @@ impl Code {
         }
     }
 
-    /// Finds the packets of all inputs and outputs, and sets the packets that do not move: of an
-    /// input that is the same in all packets, and of one whose slice ends before the run does.
-    fn find_packets(&self, run: &Run<'_>, tracks: &mut Vec<Track>, lines: &mut [Line]) {
-        tracks.clear();
-        let last = run.packets - 1;
-        let frame = lines.as_mut_ptr().expose_provenance();
-        for (at, &kind) in (0..).zip(&self.input_types) {
-            let given = run.inputs.get(at as usize);
-            let track = given.map_or(Track::STILL, |input| Track::of_input(input, kind, last));
-            let still = self.frame.still + at * PACKET;
-            if !track.moves_up_to(last) {
-                lines[(still / LINE) as usize] = splat(match (given, kind) {
-                    (Some(InputData::Uniform(word)), Type::Word) => *word,
-                    (Some(InputData::Uniform(1..)), Type::Mask) => u32::MAX,
-                    _ => 0,
-                });
-            }
-            tracks.push(track.or_still(frame + still as usize));
-        }
-        // An output that goes nowhere goes into the sink.
-        let sink = frame + self.frame.sink as usize;
-        for (at, &kind) in self.output_types.iter().enumerate() {
-            let given = run.outputs.get(at);
-            let track = given.map_or(Track::STILL, |to| Track::of_output(to, kind, last));
-            tracks.push(track.or_still(sink));
-        }
-    }
-
     /// Sets the pointers of inputs and outputs to the packets of a pass, so many from the first on,
-    /// and their steps, in the state that is so many bytes after the first one.
+    /// and their steps, in the state that is so many bytes after the first one. True if the steps
+    /// lead to all packets of the run.
     fn set_packets(
         &self,
-        tracks: &[Track],
+        (run, tracks): (&Run<'_>, &[Track]),
         lines: &mut [Line],
         (first, count): (usize, usize),
         state: usize,
-    ) {
+    ) -> bool {
         let of_packet = self.frame.packet_lines();
         let line_of = |offset: u32| (offset as usize + state) / LINE as usize;
         let (pointers, steps) = (line_of(self.frame.pointers), line_of(self.frame.steps));
-        let (before, steps) = lines.split_at_mut(steps);
-        let mut places = before[pointers..].iter_mut().zip(steps);
-        for packet in first..first + count {
-            let of_packet = places.by_ref().take(of_packet);
-            for ((pointers, steps), tracks) in of_packet.zip(tracks.chunks(WORDS)) {
-                let words = pointers.0.iter_mut().zip(&mut steps.0);
-                for ((pointer, step), track) in words.zip(tracks) {
-                    *pointer = track.address(packet) as u64;
-                    *step = track.step().wrapping_mul(count) as u64;
+        let is_led = self.set_packet((run, tracks), lines, first, [pointers, steps]);
+        for packet in 1..count {
+            let at = packet * of_packet;
+            if !is_led {
+                let places = [pointers + at, steps + at];
+                self.set_packet((run, tracks), lines, first + packet, places);
+                continue;
+            }
+            for line in 0..of_packet {
+                let (step, to) = (lines[steps + line], pointers + at + line);
+                lines[to] = lines[to - of_packet];
+                for (pointer, step) in lines[to].0.iter_mut().zip(step.0) {
+                    *pointer = pointer.wrapping_add(step);
                 }
+                lines[steps + at + line] = step;
             }
         }
+        if is_led && count > 1 {
+            for step in lines[steps..][..count * of_packet].iter_mut() {
+                step.0 = step.0.map(|step| step.wrapping_mul(count as u64));
+            }
+        }
+        is_led
     }
+
+    /// Sets the pointers of inputs and outputs to a packet, and their steps to the next one, in
+    /// lines from these on. True if the steps lead to all packets of the run.
+    #[inline(always)]
+    fn set_packet(
+        &self,
+        (run, tracks): (&Run<'_>, &[Track]),
+        lines: &mut [Line],
+        packet: usize,
+        [pointers, steps]: [usize; 2],
+    ) -> bool {
+        let (inputs, outputs) = tracks.split_at(run.inputs.len());
+        let first = self.input_types.len();
+        let of_inputs = (&self.input_types[..], run.input_parts, inputs);
+        let of_outputs = (&self.output_types[..], run.output_parts, outputs);
+        let mut is_led = true;
+        for ((kinds, parts, tracks), first) in [(of_inputs, 0), (of_outputs, first)] {
+            for (number, &kind) in (0..).zip(kinds) {
+                let part = Part::of(parts, number);
+                let track = tracks.get(part.data as usize).unwrap_or(&Track::NOWHERE);
+                let at = first + number as usize;
+                let (address, step) = match track.whole_part(kind, part.first, packet) {
+                    Some(found) => found,
+                    None => {
+                        let of_packet = |packet| track.packet_of_part(kind, part.first, packet);
+                        is_led &= of_packet(0).is_none();
+                        let still = self.still(run, lines, at);
+                        (of_packet(packet).unwrap_or(still), 0)
+                    }
+                };
+                lines[pointers + at / WORDS].0[at % WORDS] = address as u64;
+                lines[steps + at / WORDS].0[at % WORDS] = step as u64;
+            }
+        }
+        is_led
+    }
+
+    /// Where an input is read, or an output goes, that is not in memory: an input is the same in
+    /// all packets, and an output that goes nowhere goes into the sink. Inputs come first.
+    #[cold]
+    fn still(&self, run: &Run<'_>, lines: &mut [Line], at: usize) -> usize {
+        let frame = lines.as_mut_ptr().expose_provenance();
+        let Some(kind) = self.input_types.get(at) else {
+            return frame + self.frame.sink as usize;
+        };
+        let offset = self.frame.still as usize + at * PACKET as usize;
+        let input = u32::try_from(at).map_or(InputData::Uniform(0), |at| run.input(at));
+        lines[offset / LINE as usize] = splat(match (input, kind) {
+            (InputData::Uniform(word), Type::Word) => word,
+            (InputData::Uniform(1..), Type::Mask) => u32::MAX,
+            _ => 0,
+        });
+        frame + offset
+    }
+}
+
+/// Where the data of a run are: those of inputs, then those of outputs.
+fn find_data(run: &Run<'_>, tracks: &mut Vec<Track>) {
+    let last = run.packets - 1;
+    tracks.clear();
+    tracks.extend((run.inputs.iter()).map(|input| Track::of_input(input, last)));
+    tracks.extend((run.outputs.iter()).map(|output| Track::of_output(output, last)));
 }
 
 /// A copy of a buffer, with zeros up to a length.

@@ -9,10 +9,16 @@ use std::cell::Cell;
 pub struct Run<'a> {
     /// The number of packets. A kernel with barriers or work-group memory is given one work-group.
     pub packets: usize,
-    /// The inputs, in the order of the interface. Those that are missing are 0.
+    /// The data of the inputs.
     pub inputs: &'a [InputData<'a>],
-    /// Where outputs go, in the order of the interface. Those that are missing are dropped.
+    /// The part of the data that each input is, in the order of the interface. Inputs beyond the
+    /// end are the data of their own number, and those whose data are missing are 0.
+    pub input_parts: &'a [Part],
+    /// Where the data of outputs go.
     pub outputs: &'a [OutputData<'a>],
+    /// The part of the data that each output is, as for inputs. Those whose data are missing are
+    /// dropped.
+    pub output_parts: &'a [Part],
     /// The buffers, in the order of the interface. Those that are missing are empty.
     pub buffers: &'a [Buffer<'a>],
     /// Accesses to textures.
@@ -21,18 +27,64 @@ pub struct Run<'a> {
     pub budget: u64,
 }
 
-impl Run<'_> {
+impl<'a> Run<'a> {
     /// A run of so many packets without inputs, outputs and memory.
     #[must_use]
     pub fn new(packets: usize) -> Self {
         Self {
             packets,
             inputs: &[],
+            input_parts: &[],
             outputs: &[],
+            output_parts: &[],
             buffers: &[],
             textures: &NoTextures,
             budget: 1 << 32,
         }
+    }
+
+    /// The data of an input of the interface.
+    #[inline]
+    #[must_use]
+    pub fn input(&self, at: u32) -> InputData<'a> {
+        let part = Part::of(self.input_parts, at);
+        let data = self.inputs.get(part.data as usize);
+        data.map_or(InputData::Uniform(0), |data| data.part(part.first as usize))
+    }
+
+    /// Where an output of the interface goes.
+    #[inline]
+    #[must_use]
+    pub fn output(&self, at: u32) -> OutputData<'a> {
+        let part = Part::of(self.output_parts, at);
+        let data = self.outputs.get(part.data as usize);
+        data.map_or(OutputData::Dropped, |data| data.part(part.first as usize))
+    }
+}
+
+/// The part of a run's data that an input or output is. Many are parts of one slice, as all scalars
+/// of a batch's varyings are: so parts are listed once, and a run names a few slices.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Part {
+    /// The position of the data in the list of the run.
+    pub data: u32,
+    /// The elements by which it lies behind the first one of the data. Masks have one part.
+    pub first: u32,
+}
+
+impl Part {
+    /// Of no data: an input that is 0, an output that is dropped.
+    pub const NONE: Self = Self {
+        data: u32::MAX,
+        first: 0,
+    };
+
+    /// The part that is listed for an input or output.
+    #[inline(always)]
+    #[must_use]
+    pub fn of(parts: &[Self], at: u32) -> Self {
+        let own = Self { data: at, first: 0 };
+        parts.get(at as usize).copied().unwrap_or(own)
     }
 }
 
@@ -74,6 +126,8 @@ pub enum InputData<'a> {
     SharedMask(&'a [Cell<u16>]),
     /// The same word in all lanes. For masks, 0 is false.
     Uniform(u32),
+    /// Words each of which is the same in all lanes; element `first` is that of a part.
+    UniformWords(&'a [u32]),
 }
 
 impl<'a> InputData<'a> {
@@ -97,6 +151,28 @@ impl<'a> InputData<'a> {
         }
     }
 
+    /// The data of a part that lies so many elements behind the first one.
+    #[inline]
+    #[must_use]
+    pub fn part(self, behind: usize) -> Self {
+        match self {
+            Self::Words {
+                packets,
+                first,
+                stride,
+            } => Self::words(packets, first.saturating_add(behind), stride),
+            Self::Floats {
+                packets,
+                first,
+                stride,
+            } => Self::floats(packets, first.saturating_add(behind), stride),
+            Self::UniformWords(words) => {
+                Self::Uniform(words.get(behind).copied().unwrap_or_default())
+            }
+            Self::Mask(_) | Self::SharedMask(_) | Self::Uniform(_) => self,
+        }
+    }
+
     /// The first lane, for inputs that are the same in all lanes.
     #[must_use]
     pub fn first_word(&self) -> u32 {
@@ -108,6 +184,7 @@ impl<'a> InputData<'a> {
             Self::Mask(bits) => bits.first().map_or(0, |bits| u32::from(bits & 1)),
             Self::SharedMask(bits) => bits.first().map_or(0, |bits| u32::from(bits.get() & 1)),
             Self::Uniform(word) => word,
+            Self::UniformWords(words) => words.first().copied().unwrap_or_default(),
         }
     }
 }
@@ -157,6 +234,25 @@ impl<'a> OutputData<'a> {
             packets,
             first,
             stride,
+        }
+    }
+
+    /// The data of a part that lies so many elements behind the first one.
+    #[inline]
+    #[must_use]
+    pub fn part(self, behind: usize) -> Self {
+        match self {
+            Self::Words {
+                packets,
+                first,
+                stride,
+            } => Self::words(packets, first.saturating_add(behind), stride),
+            Self::Floats {
+                packets,
+                first,
+                stride,
+            } => Self::floats(packets, first.saturating_add(behind), stride),
+            Self::Mask(_) | Self::Dropped => self,
         }
     }
 }

@@ -54,7 +54,7 @@ mod memory;
 mod run;
 mod textures;
 
-pub use batch::{InputData, OutputData, Run, Stopped, cells};
+pub use batch::{InputData, OutputData, Part, Run, Stopped, cells};
 pub use compile::{Code, MAX_CHUNK};
 pub use memory::{Buffer, Words, atomic};
 pub use run::Scratch;

@@ -1,8 +1,7 @@
 //! Batches of the pipeline as runs of a kernel.
 
-use super::read_place::scalar_of;
+use super::ends::{MOST, Source, Target};
 use super::stage::Stage;
-use estampe_ir::interface::{Input, Output};
 use estampe_ir::interpreter::{InputData, OutputData, cells};
 use estampe_simd::Packet;
 use estampe_types::{FragmentBatch, VertexBatch};
@@ -13,171 +12,115 @@ use std::cell::Cell;
 pub(super) struct Widths {
     pub(super) attributes: usize,
     pub(super) varyings: usize,
+    /// Those of the varyings that have derivatives along each axis.
+    pub(super) gradients: usize,
     pub(super) colors: usize,
     pub(super) targets: usize,
     pub(super) clip_distances: usize,
 }
 
-/// The places of a batch of vertices. `attributes` says at which scalar each location begins, and
-/// `varyings` to which scalar of the fragments each scalar of the vertices goes.
+impl Widths {
+    /// The scalars of a fragment's varyings and their derivatives.
+    pub(super) fn fragment_scalars(&self) -> usize {
+        self.varyings + 2 * self.gradients
+    }
+}
+
+/// The data of a batch of vertices.
+#[inline(always)]
 pub(super) fn with_vertices<T>(
     stage: &Stage,
-    (widths, varyings, immediates): (Widths, &[Option<u32>], &[u32]),
-    attributes: &[usize],
+    (widths, immediates): (Widths, &[u32]),
     batch: VertexBatch<'_>,
     run: impl FnOnce(usize, &[InputData<'_>], &[OutputData<'_>]) -> T,
 ) -> T {
     let packets = batch.vertex_index.len();
     let (positions, sizes) = (cells(batch.positions), cells(batch.point_sizes));
-    let (to_varyings, distances) = (cells(batch.varyings), cells(batch.distances));
-    let input = |input: &Input| match *input {
-        Input::Attribute {
-            location,
-            component,
-        } => {
-            let first = attributes.get(location as usize).copied();
-            let first = first
-                .unwrap_or(usize::MAX)
-                .saturating_add(component as usize);
-            InputData::floats(batch.attributes, first, widths.attributes)
-        }
-        Input::VertexIndex => InputData::words(batch.vertex_index, 0, 1),
-        Input::InstanceIndex => InputData::words(batch.instance_index, 0, 1),
-        Input::Cover => InputData::Uniform(1),
-        Input::PushConstant(at) => immediate(immediates, at),
+    let (varyings, distances) = (cells(batch.varyings), cells(batch.distances));
+    let input = |source: Source| match source {
+        Source::Attributes => InputData::floats(batch.attributes, 0, widths.attributes),
+        Source::VertexIndex => InputData::words(batch.vertex_index, 0, 1),
+        Source::InstanceIndex => InputData::words(batch.instance_index, 0, 1),
+        Source::Cover => InputData::Uniform(1),
+        Source::Immediates => InputData::UniformWords(immediates),
         _ => InputData::Uniform(0),
     };
-    let output = |output: &Output| match *output {
-        Output::Position(part) => OutputData::floats(positions, part as usize, 4),
-        Output::Varying(scalar) => match varyings.get(scalar as usize) {
-            Some(Some(to)) => OutputData::floats(to_varyings, *to as usize, widths.varyings),
-            _ => OutputData::Dropped,
-        },
-        Output::PointSize => OutputData::floats(sizes, 0, 1),
-        Output::ClipDistance(at) => {
-            OutputData::floats(distances, at as usize, widths.clip_distances)
-        }
+    let output = |target: Target| match target {
+        Target::Positions => OutputData::floats(positions, 0, 4),
+        Target::Varyings => OutputData::floats(varyings, 0, widths.varyings),
+        Target::PointSizes => OutputData::floats(sizes, 0, 1),
+        Target::Distances => OutputData::floats(distances, 0, widths.clip_distances),
         _ => OutputData::Dropped,
     };
-    let interface = stage.interface();
-    let mut ends = Ends::take();
-    ends.inputs.extend(interface.inputs.iter().map(input));
-    ends.outputs.extend(interface.outputs.iter().map(output));
-    let result = run(packets, &ends.inputs, &ends.outputs);
-    ends.give_back();
-    result
+    let (inputs, outputs) = (stage.sources(), stage.targets());
+    run(
+        packets,
+        list(&mut [InputData::Uniform(0); MOST], inputs, input),
+        list(&mut [OutputData::Dropped; MOST], outputs, output),
+    )
 }
 
-/// The places of a batch of fragments, of one packet each time if the sample index is read: it
-/// differs from packet to packet. `gradients` lists the scalars that have derivatives, in ascending
-/// order; `texels` are those of the stage's [reads](Stage::reads).
+/// The data of a batch of fragments, of one packet each time if the sample index is read: it
+/// differs from packet to packet. `texels` are those of the stage's [reads](Stage::reads).
+#[inline(always)]
 pub(super) fn with_fragments<E>(
     stage: &Stage,
-    (widths, gradients, immediates): (Widths, &[usize], &[u32]),
+    (widths, immediates): (Widths, &[u32]),
     (batch, texels): (FragmentBatch<'_>, &[Packet<f32>]),
     mut run: impl FnMut(usize, &[InputData<'_>], &[OutputData<'_>]) -> Result<(), E>,
 ) -> Result<(), E> {
     let all = batch.coverage.len();
-    let interface = stage.interface();
-    let by_packet = interface.inputs.contains(&Input::SampleIndex);
     let (coverage, colors) = (cells(batch.coverage), cells(batch.colors));
     let (depths, masks) = (cells(batch.depths), cells(batch.sample_masks));
+    let (inputs, outputs) = (stage.sources(), stage.targets());
+    let by_packet = inputs.contains(&Source::SampleIndex);
     let step = if by_packet { 1 } else { all.max(1) };
-    let scalars = widths.varyings + 2 * gradients.len();
-    let mut ends = Ends::take();
-    let mut result = Ok(());
     for first in (0..all).step_by(step) {
         let coverage: &[Cell<u16>] = &coverage[first..];
-        let floats = |packets, part: usize, stride: usize| {
-            InputData::floats(packets, first * stride + part, stride)
-        };
-        let input = |input: &Input| match *input {
-            Input::Varying(_) | Input::Derivative { .. } => {
-                match scalar_of(*input, widths, gradients) {
-                    Some(scalar) => floats(batch.varyings, scalar, scalars),
-                    None => InputData::Uniform(0),
-                }
+        let floats = |packets, stride: usize| InputData::floats(packets, first * stride, stride);
+        let input = |source: Source| match source {
+            Source::Varyings => floats(batch.varyings, widths.fragment_scalars()),
+            Source::Texels(span) => {
+                let (start, stride) = stage.reads().places(span, all);
+                InputData::floats(texels, start + first * stride, stride)
             }
-            Input::TextureRead { read, component } => {
-                let (part, stride) = stage.reads().place(read, component, all);
-                floats(texels, part, stride)
-            }
-            Input::Position(part) => floats(batch.positions, part as usize, 4),
-            Input::FrontFacing => {
+            Source::Positions => floats(batch.positions, 4),
+            Source::FrontFacing => {
                 InputData::Mask(batch.front_facing.get(first..).unwrap_or_default())
             }
-            Input::SampleIndex => {
+            Source::SampleIndex => {
                 InputData::Uniform(batch.sample_index.get(first).copied().unwrap_or(0))
             }
-            Input::SampleMask => InputData::words(batch.samples_covered, first, 1),
-            Input::Cover => InputData::SharedMask(coverage),
-            Input::PushConstant(at) => immediate(immediates, at),
+            Source::SamplesCovered => InputData::words(batch.samples_covered, first, 1),
+            Source::Cover => InputData::SharedMask(coverage),
+            Source::Immediates => InputData::UniformWords(immediates),
             _ => InputData::Uniform(0),
         };
-        let to = |packets, part: usize, stride: usize| {
-            OutputData::floats(packets, first * stride + part, stride)
-        };
-        let output = |output: &Output| match *output {
-            Output::Color { target, component } => {
-                let part = (target * 4 + component) as usize;
-                to(colors, part, widths.colors * 4)
-            }
-            Output::SecondColor(component) => {
-                let part = widths.targets * 4 + component as usize;
-                to(colors, part, widths.colors * 4)
-            }
-            Output::Depth => to(depths, 0, 1),
-            Output::SampleMask => OutputData::words(masks, first, 1),
-            Output::Cover => OutputData::Mask(coverage),
+        let to = |packets, stride: usize| OutputData::floats(packets, first * stride, stride);
+        let output = |target: Target| match target {
+            Target::Colors => to(colors, widths.colors * 4),
+            Target::Depths => to(depths, 1),
+            Target::SampleMasks => OutputData::words(masks, first, 1),
+            Target::Cover => OutputData::Mask(coverage),
             _ => OutputData::Dropped,
         };
-        ends.inputs.clear();
-        ends.inputs.extend(interface.inputs.iter().map(input));
-        ends.outputs.clear();
-        ends.outputs.extend(interface.outputs.iter().map(output));
-        result = run(step.min(all - first), &ends.inputs, &ends.outputs);
-        if result.is_err() {
-            break;
-        }
+        run(
+            step.min(all - first),
+            list(&mut [InputData::Uniform(0); MOST], inputs, input),
+            list(&mut [OutputData::Dropped; MOST], outputs, output),
+        )?;
     }
-    ends.give_back();
-    result
+    Ok(())
 }
 
-thread_local! {
-    /// The memory of the last batch's inputs and outputs, which are none now.
-    static ENDS: Cell<Ends<'static>> = Cell::default();
-}
-
-/// The inputs and outputs of a batch.
-#[derive(Debug, Default)]
-struct Ends<'a> {
-    inputs: Vec<InputData<'a>>,
-    outputs: Vec<OutputData<'a>>,
-}
-
-impl<'a> Ends<'a> {
-    /// None, with room for those of the thread's last batch.
-    fn take() -> Self {
-        ENDS.take().emptied()
+/// Fills a list with what each of a stage's sources or targets is in a batch.
+#[inline(always)]
+fn list<'a, T: Copy, D>(room: &'a mut [D; MOST], ends: &[T], data: impl Fn(T) -> D) -> &'a [D] {
+    debug_assert!(ends.len() <= MOST, "a stage has few kinds of data");
+    for (to, end) in room.iter_mut().zip(ends) {
+        *to = data(*end);
     }
-
-    /// Keeps the room for the thread's next batch.
-    fn give_back(self) {
-        ENDS.set(self.emptied());
-    }
-
-    /// None, with the same room: the standard library collects a vector's own elements in place.
-    fn emptied<'b>(mut self) -> Ends<'b> {
-        self.inputs.clear();
-        self.outputs.clear();
-        let inputs = self.inputs.into_iter().map(|_| InputData::Uniform(0));
-        let outputs = self.outputs.into_iter().map(|_| OutputData::Dropped);
-        Ends {
-            inputs: inputs.collect(),
-            outputs: outputs.collect(),
-        }
-    }
+    &room[..ends.len().min(MOST)]
 }
 
 /// A word of the immediates.

@@ -9,36 +9,37 @@ const FEW: usize = 4;
 
 /// The buffers of a stage. Those that are not bound are empty.
 #[derive(Debug)]
-pub(super) struct BoundBuffers<'a> {
-    few: [Buffer<'a>; FEW],
-    /// All, if they are more than a few.
-    more: Vec<Buffer<'a>>,
-    count: usize,
+pub(super) enum BoundBuffers<'a> {
+    None,
+    Few([Buffer<'a>; FEW], usize),
+    Many(Vec<Buffer<'a>>),
 }
 
 impl<'a> BoundBuffers<'a> {
     /// The buffers of these slots among the resources that a draw binds.
-    #[inline]
+    #[inline(always)]
     pub(super) fn new(bindings: &'a Bindings, slots: &[BufferSlot]) -> Self {
-        let mut buffers = Self {
-            few: [Buffer::default(); FEW],
-            more: Vec::new(),
-            count: slots.len(),
-        };
-        if slots.len() <= FEW {
-            for (to, slot) in buffers.few.iter_mut().zip(slots) {
-                *to = buffer(bindings, slot);
+        match slots.len() {
+            0 => Self::None,
+            count @ ..=FEW => {
+                let mut few = [Buffer::default(); FEW];
+                for (to, slot) in few.iter_mut().zip(slots) {
+                    *to = buffer(bindings, slot);
+                }
+                Self::Few(few, count)
             }
-        } else {
-            buffers.more = slots.iter().map(|slot| buffer(bindings, slot)).collect();
+            _ => Self::Many(slots.iter().map(|slot| buffer(bindings, slot)).collect()),
         }
-        buffers
     }
 
     /// All of them, in the order of the slots.
-    #[inline]
+    #[inline(always)]
     pub(super) fn all(&self) -> &[Buffer<'a>] {
-        self.few.get(..self.count).unwrap_or(&self.more)
+        match self {
+            Self::None => &[],
+            Self::Few(few, count) => few.get(..*count).unwrap_or_default(),
+            Self::Many(all) => all,
+        }
     }
 }
 

@@ -1,6 +1,6 @@
 //! Machine code of a stage, made when it is first run, and made better when it runs often.
 
-use super::workspaces::Workspaces;
+use super::workspaces::with_workspace;
 use estampe_ir::interpreter::{Run, Stopped};
 use estampe_ir::lanes::Kernel;
 use estampe_simd::Level;
@@ -25,7 +25,6 @@ struct OfIsa {
     optimised: OnceLock<Option<Code>>,
     /// Packets that the fast code has run, and their jumps backwards, about.
     work: AtomicU64,
-    workspaces: Workspaces,
 }
 
 impl MachineCode {
@@ -39,12 +38,13 @@ impl MachineCode {
         let isa = Isa::of(level)?;
         let of_isa = &self.of_isa[isa as usize];
         let code = of_isa.code(kernel, isa)?;
-        let (stopped, jumps) = of_isa.workspaces.with(|scratch| {
+        Some(with_workspace(code, |scratch| {
             let stopped = code.run(level, run, scratch);
-            (stopped, scratch.jumps(code, run))
-        });
-        of_isa.count(kernel, isa, (run.packets as u64).saturating_add(jumps));
-        Some(stopped)
+            of_isa.count(kernel, isa, || {
+                (run.packets as u64).saturating_add(scratch.jumps(code, run))
+            });
+            stopped
+        }))
     }
 }
 
@@ -60,10 +60,12 @@ impl OfIsa {
 
     /// Counts what a run did. The one that makes a stage one that runs often compiles it again,
     /// while others go on with the fast code.
-    fn count(&self, kernel: &Kernel, isa: Isa, work: u64) {
+    #[inline]
+    fn count(&self, kernel: &Kernel, isa: Isa, work: impl FnOnce() -> u64) {
         if self.work.load(Ordering::Relaxed) >= OFTEN {
             return;
         }
+        let work = work();
         let before = self.work.fetch_add(work, Ordering::Relaxed);
         if before < OFTEN && before.saturating_add(work) >= OFTEN {
             let code = Code::compile(kernel, isa, Tier::Optimised).ok();

@@ -7,6 +7,7 @@
 mod batch;
 mod buffers;
 mod compute;
+mod ends;
 mod facts;
 mod layouts;
 mod link;
@@ -66,9 +67,6 @@ impl StageSource {
 pub struct TextProgram {
     interface: Interface,
     layouts: Vec<BindGroupLayout>,
-    /// The scalar at which each attribute begins.
-    attributes: Vec<usize>,
-    links: Links,
     widths: Widths,
     immediate_size: u32,
     vertex: Stage,
@@ -95,14 +93,16 @@ impl TextProgram {
         let mut fragment = fragment.cloned();
         let links = Links::new(vertex, fragment.as_mut())?;
         let interface = link::interface(vertex, fragment.as_ref(), &links);
-        let starts = interface.attributes.iter().scan(0, |next, count| {
+        let attributes = interface.attributes.iter().scan(0, |next, count| {
             let start = *next;
             *next += count;
             Some(start)
         });
+        let attributes: Vec<usize> = attributes.collect();
         let widths = Widths {
             attributes: interface.attribute_scalars(),
             varyings: interface.varyings.len(),
+            gradients: interface.gradients.len(),
             colors: interface.colors(),
             targets: interface.color_targets,
             clip_distances: interface.distances(),
@@ -112,18 +112,16 @@ impl TextProgram {
             .as_ref()
             .map(|source| Stage::of_fragments(&source.tree, budget, (widths, gradients)));
         Ok(Self {
-            attributes: starts.collect(),
             widths,
             immediate_size: vertex.immediate_size.max(
                 fragment
                     .as_ref()
                     .map_or(0, |fragment| fragment.immediate_size),
             ),
-            vertex: Stage::new(&vertex.tree, budget),
+            vertex: Stage::of_vertices(&vertex.tree, budget, (&attributes, links.of_vertex())),
             fragment: fragment_stage,
             layouts,
             interface,
-            links,
             stopped: StoppedBatches::default(),
         })
     }
@@ -179,26 +177,16 @@ impl Program for TextProgram {
             return;
         }
         let (buffers, textures) = (stage.buffers(bindings), stage.textures(bindings));
-        let places = (
-            self.widths,
-            self.links.of_vertex(),
-            &bindings.immediates[..],
-        );
+        let places = (self.widths, &bindings.immediates[..]);
         // A run that is stopped leaves its outputs as they are.
-        let run = with_vertices(
-            stage,
-            places,
-            &self.attributes,
-            batch,
-            |packets, inputs, outputs| {
-                stage.run(
-                    level,
-                    (&textures, buffers.all()),
-                    packets,
-                    (inputs, outputs),
-                )
-            },
-        );
+        let run = with_vertices(stage, places, batch, |packets, inputs, outputs| {
+            stage.run(
+                level,
+                (&textures, buffers.all()),
+                packets,
+                (inputs, outputs),
+            )
+        });
         if run.is_err() {
             self.stopped.stop();
         }
@@ -212,11 +200,10 @@ impl Program for TextProgram {
             return;
         }
         let (buffers, textures) = (stage.buffers(bindings), stage.textures(bindings));
-        let gradients = &self.interface.gradients[..];
-        let places = (self.widths, gradients, &bindings.immediates[..]);
+        let places = (self.widths, &bindings.immediates[..]);
         let scalars = (
             batch.varyings,
-            self.interface.fragment_scalars(),
+            self.widths.fragment_scalars(),
             batch.coverage.len(),
         );
         let sources = Sources {

@@ -52,7 +52,9 @@ pub(super) struct Reads {
     filters: Vec<Filter>,
     /// The shifts of filters.
     uniforms: Uniforms,
-    /// For each read, the first one of its group and the number of them there.
+    /// For each group, and then each filter: the number of its first read, and how many it has.
+    spans: Vec<[usize; 2]>,
+    /// For each read, the number of its span and its place there.
     of_read: Vec<(usize, usize)>,
 }
 
@@ -92,17 +94,15 @@ impl Reads {
         reads.uniforms = uniforms.finish();
         let groups = reads.groups.iter().map(|group| group.textures.len());
         let filters = reads.filters.iter().map(|filter| filter.shifts.len());
-        let mut firsts = Vec::new();
-        for count in groups.chain(filters) {
-            let first = reads.of_read.len();
-            firsts.push(first);
-            let of_group = std::iter::repeat_n((first, count), count);
-            reads.of_read.extend(of_group);
+        for (span, count) in groups.chain(filters).enumerate() {
+            reads.spans.push([reads.of_read.len(), count]);
+            reads.of_read.extend((0..count).map(|at| (span, at)));
         }
         let mut numbers: HashMap<Value, usize> = HashMap::new();
         for (read, (is_tap, (group, at))) in found.iter().zip(places) {
             let before = if is_tap { reads.groups.len() } else { 0 };
-            numbers.insert(read.first, firsts[before + group] + at);
+            let [first, _] = reads.spans[before + group];
+            numbers.insert(read.first, first + at);
         }
         let body = std::mem::take(&mut tree.body);
         for node in body {
@@ -166,15 +166,19 @@ impl Reads {
         groups.chain(filters).any(|[of, _]| *of == texture)
     }
 
-    /// Where a component of a read is among the texels of so many packets: its first packet, and
-    /// the step to the next.
-    pub(super) fn place(&self, read: u32, component: u32, packets: usize) -> (usize, usize) {
-        let Some(&(first, count)) = self.of_read.get(read as usize) else {
+    /// The span of a read, and where a component is among those of a packet there.
+    pub(super) fn place(&self, read: u32, component: u32) -> Option<(usize, usize)> {
+        let (span, at) = *self.of_read.get(read as usize)?;
+        Some((span, at * CHANNELS + component as usize))
+    }
+
+    /// Where a span's first packet is among the texels of so many packets, and the step to the
+    /// next. Spans follow each other; in a span, the packets.
+    pub(super) fn places(&self, span: usize, packets: usize) -> (usize, usize) {
+        let Some([first, count]) = self.spans.get(span) else {
             return (usize::MAX, 0);
         };
-        // Groups follow each other; in a group, the packets.
-        let in_group = (read as usize - first) * CHANNELS + component as usize;
-        (first * packets * CHANNELS + in_group, count * CHANNELS)
+        (first * packets * CHANNELS, count * CHANNELS)
     }
 
     /// Makes all reads of so many packets, each of which has `stride` scalars. Gives the texels, of

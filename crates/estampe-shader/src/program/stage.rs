@@ -2,6 +2,7 @@
 
 use super::batch::Widths;
 use super::buffers::BoundBuffers;
+use super::ends::{Ends, Source, Target};
 use super::machine::MachineCode;
 use super::nondependent::Reads;
 use super::textures::BoundTextures;
@@ -27,6 +28,8 @@ pub(super) struct Stage {
     kernel: Kernel,
     /// The texture reads that are made before the kernel runs.
     reads: Reads,
+    inputs: Ends<Source>,
+    outputs: Ends<Target>,
     machine: MachineCode,
     /// What runs where there is no machine code.
     bytecode: OnceLock<Code>,
@@ -37,14 +40,35 @@ pub(super) struct Stage {
 }
 
 impl Stage {
+    /// A stage whose runs are given the data of each input and output.
     pub(super) fn new(tree: &Tree, budget: u64) -> Self {
         Self {
             kernel: Kernel::from_tree(tree),
             reads: Reads::default(),
+            inputs: Ends::default(),
+            outputs: Ends::default(),
             machine: MachineCode::default(),
             bytecode: OnceLock::new(),
             is_interpreted: false,
             budget,
+        }
+    }
+
+    /// A vertex stage. `attributes` says at which scalar each location begins, and `varyings` to
+    /// which scalar of the fragments each scalar of the vertices goes.
+    pub(super) fn of_vertices(
+        tree: &Tree,
+        budget: u64,
+        (attributes, varyings): (&[usize], &[Option<u32>]),
+    ) -> Self {
+        let stage = Self::new(tree, budget);
+        let Interface {
+            inputs, outputs, ..
+        } = stage.interface();
+        Self {
+            inputs: Ends::<Source>::of_vertices(inputs, attributes),
+            outputs: Ends::<Target>::of_vertices(outputs, varyings),
+            ..stage
         }
     }
 
@@ -57,10 +81,26 @@ impl Stage {
     ) -> Self {
         let mut tree = tree.clone();
         let reads = Reads::take(&mut tree, widths, gradients);
+        let stage = Self::new(&tree, budget);
+        let Interface {
+            inputs, outputs, ..
+        } = stage.interface();
         Self {
+            inputs: Ends::<Source>::of_fragments(inputs, &reads, (widths, gradients)),
+            outputs: Ends::<Target>::of_fragments(outputs, widths),
             reads,
-            ..Self::new(&tree, budget)
+            ..stage
         }
+    }
+
+    /// What a run of a vertex or fragment stage is given for its inputs.
+    pub(super) fn sources(&self) -> &[Source] {
+        self.inputs.data()
+    }
+
+    /// What a run of a vertex or fragment stage is given for its outputs.
+    pub(super) fn targets(&self) -> &[Target] {
+        self.outputs.data()
     }
 
     /// The texture reads that are made before the kernel runs.
@@ -78,11 +118,13 @@ impl Stage {
     }
 
     /// The buffers among the resources that a draw or dispatch binds.
+    #[inline]
     pub(super) fn buffers<'a>(&self, bindings: &'a Bindings) -> BoundBuffers<'a> {
         BoundBuffers::new(bindings, &self.interface().buffers)
     }
 
     /// The textures among the resources that a draw or dispatch binds.
+    #[inline(always)]
     pub(super) fn textures<'a>(&'a self, bindings: &'a Bindings) -> BoundTextures<'a> {
         let Interface {
             textures, samplers, ..
@@ -117,7 +159,9 @@ impl Stage {
         let run = Run {
             packets,
             inputs,
+            input_parts: self.inputs.parts(),
             outputs,
+            output_parts: self.outputs.parts(),
             buffers,
             textures,
             budget: self.budget,

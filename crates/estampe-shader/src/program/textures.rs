@@ -40,10 +40,15 @@ struct Cells<T> {
 const FEW: usize = 6;
 
 impl<T: Clone> Cells<T> {
+    #[inline(always)]
     fn new(count: usize) -> Self {
+        let more = match count.checked_sub(FEW) {
+            None | Some(0) => Vec::new(),
+            Some(more) => vec![OnceCell::new(); more],
+        };
         Self {
             few: [const { OnceCell::new() }; FEW],
-            more: vec![OnceCell::new(); count.saturating_sub(FEW)],
+            more,
         }
     }
 
@@ -55,6 +60,7 @@ impl<T: Clone> Cells<T> {
 }
 
 impl<'a> BoundTextures<'a> {
+    #[inline(always)]
     pub(super) fn new(
         bindings: &'a Bindings,
         textures: &'a [TextureSlot],

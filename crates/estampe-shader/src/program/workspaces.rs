@@ -1,49 +1,40 @@
-//! The memory of the runs of a stage: a place for each thread.
+//! The memory of the runs of machine code: a thread's own.
 //!
 //! A run writes to most of its memory, so what another thread used last would be in another core's
 //! cache: with one list for all threads, a batch of packets took a microsecond more on two cores.
 
-use estampe_x86::Scratch;
-use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::{Mutex, OnceLock, TryLockError};
+use estampe_x86::{Code, Scratch};
+use std::cell::RefCell;
 
-static THREADS: AtomicUsize = AtomicUsize::new(0);
+/// The codes whose memory a thread keeps: those of a few pipelines.
+const MOST: usize = 16;
+
+/// The bytes of memory that are not kept: those of large arrays, and of work-groups with many.
+const MOST_BYTES: usize = 1 << 22;
 
 thread_local! {
-    /// The number of this thread among those that have run shaders.
-    static THREAD: usize = THREADS.fetch_add(1, Ordering::Relaxed);
+    /// The memory of the codes that ran last, the latest one at the end.
+    #[expect(clippy::vec_box, reason = "a batch moves one out and in again")]
+    static WORKSPACES: RefCell<Vec<Box<Scratch>>> = const { RefCell::new(Vec::new()) };
 }
 
-/// The places of a stage's threads.
-#[derive(Debug, Default)]
-pub(super) struct Workspaces {
-    /// Two for each core, as there may be threads that are no longer.
-    places: OnceLock<Box<[Place]>>,
-}
-
-/// Two cache lines at least, which processors fetch together: of no other thread.
-#[derive(Debug, Default)]
-#[repr(align(128))]
-struct Place(Mutex<Scratch>);
-
-impl Workspaces {
-    /// Runs something with the memory of this thread; with new memory if all is in use.
-    pub(super) fn with<T>(&self, run: impl FnOnce(&mut Scratch) -> T) -> T {
-        let places = self.places.get_or_init(|| {
-            let cores = std::thread::available_parallelism().map_or(1, usize::from);
-            std::iter::repeat_with(Place::default)
-                .take(2 * cores)
-                .collect()
-        });
-        let first = THREAD.with(|number| number % places.len());
-        let (before, after) = places.split_at(first);
-        for place in after.iter().chain(before) {
-            match place.0.try_lock() {
-                Ok(mut scratch) => return run(&mut scratch),
-                Err(TryLockError::Poisoned(error)) => return run(&mut error.into_inner()),
-                Err(TryLockError::WouldBlock) => {}
+/// Runs something with the memory that this thread has for a code.
+#[inline]
+pub(super) fn with_workspace<T>(code: &Code, run: impl FnOnce(&mut Scratch) -> T) -> T {
+    // It is taken out while it is used: what a run calls may run other code.
+    let kept = WORKSPACES.with_borrow_mut(|kept| {
+        let at = kept.iter().rposition(|scratch| scratch.is_of(code))?;
+        Some(kept.remove(at))
+    });
+    let mut scratch = kept.unwrap_or_default();
+    let result = run(&mut scratch);
+    if scratch.bytes() <= MOST_BYTES {
+        WORKSPACES.with_borrow_mut(|kept| {
+            if kept.len() == MOST {
+                kept.remove(0);
             }
-        }
-        run(&mut Scratch::default())
+            kept.push(scratch);
+        });
     }
+    result
 }

@@ -85,7 +85,7 @@ pub(crate) struct Selected {
     /// What calls ask for.
     pub(crate) served: Vec<Served>,
     /// The inputs that are words of the table, with their slots.
-    pub(crate) table_inputs: Vec<(usize, u32)>,
+    pub(crate) table_inputs: Vec<(u32, u32)>,
     /// For each buffer the words that instructions read at fixed places.
     pub(crate) fixed_words: Vec<u32>,
 }
@@ -275,7 +275,7 @@ fn is_in_loop(kernel: &Kernel, at: usize) -> bool {
 }
 
 /// Places of hoisted values, the inputs among them, and the number of slots.
-fn hoisted_places(kernel: &Kernel, plan: &Plan) -> (Vec<Place>, Vec<(usize, u32)>, u32) {
+fn hoisted_places(kernel: &Kernel, plan: &Plan) -> (Vec<Place>, Vec<(u32, u32)>, u32) {
     let mut places = vec![Place::Nowhere; kernel.values.len()];
     let mut inputs = Vec::new();
     let mut slots = 0;
@@ -304,7 +304,7 @@ fn hoisted_places(kernel: &Kernel, plan: &Plan) -> (Vec<Place>, Vec<(usize, u32)
             });
         }
         if let Op::Input(at) | Op::InputMask(at) = op {
-            inputs.push((*at as usize, slots - 1));
+            inputs.push((*at, slots - 1));
         }
     }
     (places, inputs, slots)

@@ -52,7 +52,6 @@ impl State<'_> {
     }
 
     fn first_input(&self, at: u32) -> u32 {
-        let input = self.run.inputs.get(at as usize);
-        input.map_or(0, super::super::InputData::first_word)
+        self.run.input(at).first_word()
     }
 }

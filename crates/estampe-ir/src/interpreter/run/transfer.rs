@@ -3,6 +3,7 @@
 use super::super::{InputData, OutputData};
 use super::state::{MaskOperand, Masks, Operand, State, Words};
 use estampe_simd::{LANES, Packet};
+use std::cell::Cell;
 
 impl State<'_> {
     #[inline(always)]
@@ -25,8 +26,7 @@ impl State<'_> {
 
     #[inline(always)]
     pub(super) fn input(&self, to: Words<'_>, at: u32) {
-        let input = self.run.inputs.get(at as usize);
-        match input.copied().unwrap_or(InputData::Uniform(0)) {
+        match self.run.input(at) {
             InputData::Words {
                 packets,
                 first,
@@ -46,18 +46,18 @@ impl State<'_> {
                 }
             }
             InputData::Uniform(word) => to.iter().for_each(|to| to.set(Packet([word; LANES]))),
-            InputData::Mask(_) | InputData::SharedMask(_) => {
+            InputData::Mask(_) | InputData::SharedMask(_) | InputData::UniformWords(_) => {
                 to.iter().for_each(|to| to.set(Packet::default()));
             }
         }
     }
 
     pub(super) fn input_mask(&self, to: Masks<'_>, at: u32) {
-        let input = self.run.inputs.get(at as usize);
+        let input = self.run.input(at);
         let bits = |packet: usize| match input {
-            Some(InputData::Mask(bits)) => bits.get(packet).copied().unwrap_or(0),
-            Some(InputData::SharedMask(bits)) => bits.get(packet).map_or(0, |bits| bits.get()),
-            Some(InputData::Uniform(1..)) => u16::MAX,
+            InputData::Mask(bits) => bits.get(packet).copied().unwrap_or(0),
+            InputData::SharedMask(bits) => bits.get(packet).map_or(0, Cell::get),
+            InputData::Uniform(1..) => u16::MAX,
             _ => 0,
         };
         for (to, packet) in to.iter().zip(self.first..) {
@@ -67,8 +67,7 @@ impl State<'_> {
 
     #[inline(always)]
     pub(super) fn output(&self, at: u32, from: Operand<'_>) {
-        let output = self.run.outputs.get(at as usize);
-        match output.copied().unwrap_or(OutputData::Dropped) {
+        match self.run.output(at) {
             OutputData::Words {
                 packets,
                 first,
@@ -96,7 +95,7 @@ impl State<'_> {
     }
 
     pub(super) fn output_mask(&self, at: u32, from: MaskOperand<'_>) {
-        if let Some(OutputData::Mask(masks)) = self.run.outputs.get(at as usize) {
+        if let OutputData::Mask(masks) = self.run.output(at) {
             let places = masks.get(self.first..).unwrap_or_default();
             for (packet, to) in (0..self.count).zip(places) {
                 to.set(from.packet(packet));

@@ -1,0 +1,147 @@
+//! Inputs and outputs that are parts of a run's data: as if each were given by itself, in machine
+//! code and in the interpreter.
+#![cfg(target_arch = "x86_64")]
+
+use estampe_ir::interpreter::{self, InputData, OutputData, Part, Run, cells};
+use estampe_ir::text;
+use estampe_simd::{LANES, Level, Packet};
+use estampe_x86::{Code, Isa, Scratch, Tier};
+
+const KERNEL: &str = "
+kernel fragment
+input varying(0)
+input varying(1)
+input push_constant(0)
+input cover
+input varying(2)
+output color(0, 0)
+output color(0, 1)
+output depth
+output cover
+b0:
+  v0 = input 0
+  v1 = input 1
+  uv2 = input 2
+  m3 = input_mask 3
+  v4 = input 4
+  v5 = add v0, uv2
+  v6 = xor v1, v5
+  v7 = mul v4, v0
+  uv8 = const 100
+  m9 = ult v0, uv8
+  m10 = mand m3, m9
+  return v5, v6, v7, m10
+";
+
+/// What a run leaves: the words of two outputs and of a third, and masks.
+type Left = ([Vec<Packet<u32>>; 2], Vec<u16>);
+
+/// The parts of three scalars of a packet, of two words, and of a mask.
+const INPUTS: [Part; 5] = [
+    Part { data: 0, first: 2 },
+    Part { data: 0, first: 0 },
+    Part { data: 1, first: 1 },
+    Part { data: 2, first: 0 },
+    Part { data: 0, first: 1 },
+];
+const OUTPUTS: [Part; 4] = [
+    Part { data: 0, first: 1 },
+    Part { data: 0, first: 0 },
+    Part::NONE,
+    Part { data: 2, first: 0 },
+];
+
+/// Runs so many packets with slices of these lengths; by parts, or each input and output by itself.
+fn left(
+    packets: usize,
+    [given, room]: [usize; 2],
+    by_parts: bool,
+    go: &mut dyn FnMut(&Run<'_>),
+) -> Left {
+    let mut random = fastrand::Rng::with_seed(7);
+    let mut scalars = vec![Packet([0; LANES]); given];
+    for packet in &mut scalars {
+        packet.0.fill_with(|| random.u32(..200));
+    }
+    let covers: Vec<u16> = (0..packets).map(|_| random.u16(..)).collect();
+    let mut words = [room, room].map(|len| vec![Packet([7; LANES]); len]);
+    let mut masks = vec![0x5555; packets];
+    let [first, second] = &mut words;
+    let (first, second, mask) = (cells(first), cells(second), cells(&mut masks));
+    let outputs = [
+        OutputData::words(first, 0, 2),
+        OutputData::words(second, 0, 1),
+        OutputData::Mask(mask),
+    ];
+    let inputs = [
+        InputData::words(&scalars, 0, 3),
+        InputData::UniformWords(&[3, 1 << 31, 9]),
+        InputData::Mask(&covers),
+    ];
+    if by_parts {
+        go(&Run {
+            inputs: &inputs,
+            input_parts: &INPUTS,
+            outputs: &outputs,
+            output_parts: &OUTPUTS,
+            ..Run::new(packets)
+        });
+    } else {
+        go(&Run {
+            inputs: &[
+                InputData::words(&scalars, 2, 3),
+                InputData::words(&scalars, 0, 3),
+                InputData::Uniform(1 << 31),
+                InputData::Mask(&covers),
+                InputData::words(&scalars, 1, 3),
+            ],
+            outputs: &[
+                OutputData::words(first, 1, 2),
+                OutputData::words(first, 0, 2),
+                OutputData::Dropped,
+                OutputData::Mask(mask),
+            ],
+            ..Run::new(packets)
+        });
+    }
+    (words, masks)
+}
+
+#[test]
+fn parts_are_what_slices_of_their_own_would_be() {
+    let kernel = text::kernel(KERNEL).unwrap();
+    let definition = interpreter::Code::new(&kernel);
+    let available = Isa::ALL.into_iter().filter(|isa| isa.is_available());
+    let tiers = |isa| [Tier::Fast, Tier::Optimised].map(|tier| (isa, tier));
+    let codes = available.flat_map(tiers);
+    let codes: Vec<Code> = codes
+        .map(|(isa, tier)| Code::compile(&kernel, isa, tier).unwrap())
+        .collect();
+    for packets in [1, 2, 5, 16] {
+        // All packets have a place, or the last ones of some parts have none, or all of a part.
+        for given in [packets * 3, packets * 3 - 1, packets * 2, 2, 1, 0] {
+            for room in [packets * 2, packets * 2 - 1, packets, 1, 0] {
+                let lens = [given, room];
+                let mut interpret = |run: &Run<'_>| {
+                    let mut registers = interpreter::Scratch::default();
+                    definition.run(Level::best(), run, &mut registers).unwrap();
+                };
+                let wanted = left(packets, lens, false, &mut interpret);
+                assert_eq!(
+                    left(packets, lens, true, &mut interpret),
+                    wanted,
+                    "{lens:?}"
+                );
+                for code in &codes {
+                    let mut scratch = Scratch::default();
+                    for by_parts in [false, true] {
+                        let found = left(packets, lens, by_parts, &mut |run| {
+                            code.run(Level::best(), run, &mut scratch).unwrap();
+                        });
+                        assert_eq!(found, wanted, "{:?} {packets} {lens:?}", code.isa());
+                    }
+                }
+            }
+        }
+    }
+}
