@@ -110,6 +110,9 @@ impl Code {
             return Err(CompileError::TooLarge);
         }
         lanes::verify(kernel).map_err(|error| CompileError::Malformed(error.to_string()))?;
+        let split = select::small_angles::split(kernel);
+        let kernel = split.as_ref().unwrap_or(kernel);
+        debug_assert_eq!(lanes::verify(kernel), Ok(()), "blocks are split well");
         let expanded = select::expand::expand(kernel, MAX_SIZE)?;
         let kernel = expanded.as_ref().unwrap_or(kernel);
         let fused = select::exact_products::fuse(kernel);

@@ -67,15 +67,18 @@ pub(crate) fn expand(kernel: &Kernel, limit: usize) -> Result<Option<Kernel>, Co
             left = made.ok_or(CompileError::TooLarge)?;
             let values = &mut expanded.values;
             let ops = &mut block.ops;
-            insert((steps, arguments), (*first, is_uniform), values, ops);
+            insert((steps, arguments, &[]), (*first, is_uniform), values, ops);
         }
     }
     Ok(Some(expanded))
 }
 
+/// Steps whose results are values that are there: what they alone need is not needed.
+pub(super) type Known<'a> = &'a [(usize, Value)];
+
 /// Adds the steps of a function, whose last one gives `result`.
-fn insert(
-    (steps, arguments): (&[Step], [Value; 2]),
+pub(super) fn insert(
+    (steps, arguments, known): (&[Step], [Value; 2], Known<'_>),
     (result, is_uniform): (Value, bool),
     values: &mut Vec<ValueInfo>,
     ops: &mut Vec<(Op, Value)>,
@@ -86,6 +89,10 @@ fn insert(
     };
     let mut places: Vec<Value> = Vec::with_capacity(steps.len());
     for (at, step) in steps.iter().enumerate() {
+        if let Some((_, value)) = known.iter().find(|(known, _)| *known == at) {
+            places.push(*value);
+            continue;
+        }
         let place = |at: u32| places[at as usize];
         let op = match *step {
             Step::Argument(at) => {

@@ -18,6 +18,7 @@
 //! | module | selects |
 //! |---|---|
 //! | [`expand`] | nothing: replaces functions by operations |
+//! | [`small_angles`] | nothing: splits blocks of loops by whether the angles of sines are small |
 //! | [`plan`] | nothing: finds what is needed, uniform or hoisted |
 //! | [`quadruples`] | loads of the components of vectors |
 //! | [`uniform_loads`] | loads at places that are the same in all lanes |
@@ -51,6 +52,7 @@ mod overlap;
 mod plan;
 mod quadruples;
 mod schedule;
+pub(crate) mod small_angles;
 mod strides;
 mod uniform_loads;
 mod words;
