@@ -61,6 +61,14 @@ fn agreed(text: &str, packets: usize, budget: u64) -> Left {
     interpreted
 }
 
+/// Asserts what each lane of so many packets leaves; gives what is in the buffer then.
+fn assert_lanes(text: &str, packets: u32, expected: impl Fn(u32) -> u32) -> Vec<u32> {
+    let (found, memory) = agreed(text, packets as usize, 1 << 20);
+    let expected: Vec<u32> = (0..packets * 16).map(expected).collect();
+    assert_eq!(found.unwrap(), expected, "{text}");
+    memory
+}
+
 fn codes(kernel: &Kernel) -> Vec<Code> {
     let available = Isa::ALL.into_iter().filter(|isa| isa.is_available());
     let tiers = |isa| [Tier::Fast, Tier::Optimised].map(|tier| (isa, tier));
@@ -111,10 +119,8 @@ b2:
   return v16
 "
     );
-    let (found, _) = agreed(&text, 64, 1 << 20);
     let sum: u32 = (0..1024).map(|lane| lane * lane).sum();
-    let expected: Vec<u32> = (0..1024).map(|lane| sum + lane * lane).collect();
-    assert_eq!(found.unwrap(), expected);
+    assert_lanes(&text, 64, |lane| sum + lane * lane);
 }
 
 /// Packets that end early do not keep the others from going on, and all see what is stored.
@@ -144,9 +150,8 @@ b3:
   return v13
 "
     );
-    let (found, memory) = agreed(&text, 6, 1 << 20);
     // The earlier packets end first, so each counts on from where the one before stopped.
-    assert_eq!(found.unwrap(), (0..96).collect::<Vec<u32>>());
+    let memory = assert_lanes(&text, 6, |lane| lane);
     assert_eq!(memory[..7], [16, 32, 48, 64, 80, 96, 0]);
 }
 
@@ -173,8 +178,7 @@ fn words_beyond_the_end_are_dropped() {
   return v8
 "
         );
-        let (found, _) = agreed(&text, 2, 100);
-        assert_eq!(found.unwrap(), [if is_inside { 62 } else { 0 }; 32]);
+        assert_lanes(&text, 2, |_| if is_inside { 62 } else { 0 });
     }
 }
 
@@ -207,14 +211,12 @@ fn components_of_vectors_are_loaded_together() {
 "
     );
     // 256 lanes have a vector, and the last one of those that are confined has one word.
-    let (found, _) = agreed(&text, 17, 100);
     let word = |at: u32| if at < 17 * 16 { at } else { 0 };
-    let expected = (0..17 * 16).map(|lane: u32| {
+    assert_lanes(&text, 17, |lane| {
         let first = (lane * 4).min(1023);
         let [a, b, c, d] = [0, 1, 2, 3].map(|at| word(first + at));
         (a ^ (b << 1)).wrapping_add((c ^ d).wrapping_mul(3))
     });
-    assert_eq!(found.unwrap(), expected.collect::<Vec<_>>());
     if Isa::Avx512.is_available() {
         let kernel = text::kernel(&text).unwrap();
         let listing = Code::listing(&kernel, Isa::Avx512, Tier::Fast).unwrap();
@@ -227,8 +229,7 @@ fn components_of_vectors_are_loaded_together() {
 fn a_kernel_may_end_with_a_store() {
     let text = INTERFACE.replacen("output varying(0)\n", "", 1);
     let text = format!("{text}  store_workgroup [v0], v0, m1\n  return\n");
-    let (found, _) = agreed(&text, 2, 100);
-    assert_eq!(found.unwrap(), [0; 32]);
+    assert_lanes(&text, 2, |_| 0);
 }
 
 /// A loop with a barrier that never ends is stopped.
@@ -328,7 +329,6 @@ fn words_at_uniform_places_are_loaded_together() {
   return v21
 "
         );
-        let (found, _) = agreed(&text, 17, 100);
         let word = |at: u32| match at {
             0..272 => (at * 2).wrapping_add(place),
             _ => 0,
@@ -336,8 +336,7 @@ fn words_at_uniform_places_are_loaded_together() {
         let place_read = word(0);
         let [a, b, c, d] = [0, 1, 2, 7].map(|after| word(place_read.wrapping_add(after)));
         let product = (a ^ (b << 1)).wrapping_mul(c.wrapping_sub(d));
-        let expected = (0..272_u32).map(|lane| product.wrapping_add(lane));
-        assert_eq!(found.unwrap(), expected.collect::<Vec<_>>(), "{place}");
+        assert_lanes(&text, 17, |lane| product.wrapping_add(lane));
         let kernel = text::kernel(&text).unwrap();
         for isa in Isa::ALL.into_iter().filter(|isa| isa.is_available()) {
             // The place of the first load, and that of the four that follow.
@@ -390,7 +389,6 @@ fn words_of_buffers_at_uniform_places_are_loaded_together() {
   return v20
 "
         );
-        let (found, _) = agreed(&text, 17, 100);
         let word = |at: u32| match at / 4 {
             number @ 0..64 => (number * number).wrapping_add(place),
             _ => 0,
@@ -398,7 +396,6 @@ fn words_of_buffers_at_uniform_places_are_loaded_together() {
         let place_read = word(0);
         let [a, b, c] = [0, 4, 8].map(|after| word(place_read.wrapping_add(after)));
         let product = (a ^ (b << 1)).wrapping_mul(c);
-        let expected = (0..272_u32).map(|lane| product.wrapping_add(lane));
-        assert_eq!(found.unwrap(), expected.collect::<Vec<_>>(), "{place}");
+        assert_lanes(&text, 17, |lane| product.wrapping_add(lane));
     }
 }
