@@ -2,9 +2,10 @@
 //!
 //! The sine of x is that of r = x − k·π, with k the integer nearest to x ÷ π and π in two parts.
 //! Where |k| < 2¹⁶, k times the first part, of eight bits, is exact, so that it may be subtracted
-//! without being rounded before; and |r| < 2, so that r need not be clamped. Both stand in the chain
-//! for which loops wait. A product x = v·s with a power of two s gives k by one step, v·(s ÷ π),
-//! in place of two: without overflow, which k shows, and where k is not 0, both are rounded alike.
+//! without being rounded before; and |r| < 2, so that r need not be clamped. Both stand in the
+//! chain for which loops wait. A product x = v·s with a power of two s gives k by one step,
+//! v·(s ÷ π), in place of two: without overflow, which k shows, and where k is not 0, both are
+//! rounded alike.
 //!
 //! So a block of a loop that has several sines becomes three: what their angles need, and the test
 //! of all k; the rest of the block for large angles, as it was; and the rest for small ones.
