@@ -120,10 +120,8 @@ impl Code {
         (tracks, lines): (&[Track], &mut [Line]),
         context: &Context<'_>,
     ) -> Result<(), Stopped> {
-        let state_bytes = self.frame.state_bytes();
-        for (packet, state) in (0..run.packets).zip((0..).step_by(state_bytes as usize)) {
-            self.set_packets((run, tracks), lines, (packet, 1), state);
-        }
+        let state_lines = (self.frame.state_bytes() / LINE) as usize;
+        self.set_packets((run, tracks), lines, (0, run.packets), state_lines);
         set_head(lines, frame::PACKETS, run.packets as u64);
         match enter(&self.executable, self.packet, lines, context) {
             0 => Ok(()),
@@ -147,8 +145,12 @@ impl Code {
                 _ => (self.packet, 1),
             };
             // Where some slice is too short, the places of each pass are looked for.
-            let is_led = self.set_packets((run, tracks), lines, (packet, of_pass), 0);
+            let (data, packets) = ((run, tracks), (packet, of_pass));
+            let is_led = self.set_packets(data, lines, packets, self.frame.packet_lines());
             let passes = if is_led { left / of_pass } else { 1 };
+            if passes > 1 && of_pass > 1 {
+                self.set_steps(lines, of_pass);
+            }
             set_head(lines, frame::LEFT, passes as u64);
             if enter(&self.executable, function, lines, context) != 0 {
                 return Err(Stopped::Budget);
@@ -234,42 +236,47 @@ impl Code {
         }
     }
 
-    /// Sets the pointers of inputs and outputs to the packets of a pass, so many from the first on,
-    /// and their steps, in the state that is so many bytes after the first one. True if the steps
-    /// lead to all packets of the run.
+    /// Sets the pointers of inputs and outputs to so many packets from the first on, each so many
+    /// lines after those of the one before; and the steps of the first one. True if they lead to
+    /// all packets of the run.
     fn set_packets(
         &self,
-        (run, tracks): (&Run<'_>, &[Track]),
+        data: (&Run<'_>, &[Track]),
         lines: &mut [Line],
         (first, count): (usize, usize),
-        state: usize,
+        apart: usize,
     ) -> bool {
-        let of_packet = self.frame.packet_lines();
-        let line_of = |offset: u32| (offset as usize + state) / LINE as usize;
-        let (pointers, steps) = (line_of(self.frame.pointers), line_of(self.frame.steps));
-        let is_led = self.set_packet((run, tracks), lines, first, [pointers, steps]);
+        let parts = [self.frame.pointers, self.frame.steps];
+        let [pointers, steps] = parts.map(|offset| (offset / LINE) as usize);
+        let is_led = self.set_packet(data, lines, first, [pointers, steps]);
         for packet in 1..count {
-            let at = packet * of_packet;
+            let to = pointers + packet * apart;
             if !is_led {
-                let places = [pointers + at, steps + at];
-                self.set_packet((run, tracks), lines, first + packet, places);
+                let places = [to, steps + packet * apart];
+                self.set_packet(data, lines, first + packet, places);
                 continue;
             }
-            for line in 0..of_packet {
-                let (step, to) = (lines[steps + line], pointers + at + line);
-                lines[to] = lines[to - of_packet];
-                for (pointer, step) in lines[to].0.iter_mut().zip(step.0) {
-                    *pointer = pointer.wrapping_add(step);
+            for line in 0..self.frame.packet_lines() {
+                let (step, before) = (lines[steps + line], lines[to - apart + line]);
+                let pointers = before.0.iter().zip(step.0);
+                for (to, (pointer, step)) in lines[to + line].0.iter_mut().zip(pointers) {
+                    *to = pointer.wrapping_add(step);
                 }
-                lines[steps + at + line] = step;
-            }
-        }
-        if is_led && count > 1 {
-            for step in lines[steps..][..count * of_packet].iter_mut() {
-                step.0 = step.0.map(|step| step.wrapping_mul(count as u64));
             }
         }
         is_led
+    }
+
+    /// Makes the steps of the first packet of a pass those of all, of which there are so many.
+    fn set_steps(&self, lines: &mut [Line], count: usize) {
+        let of_packet = self.frame.packet_lines();
+        let steps = &mut lines[(self.frame.steps / LINE) as usize..][..count * of_packet];
+        for step in &mut steps[..of_packet] {
+            step.0 = step.0.map(|step| step.wrapping_mul(count as u64));
+        }
+        for packet in 1..count {
+            steps.copy_within(..of_packet, packet * of_packet);
+        }
     }
 
     /// Sets the pointers of inputs and outputs to a packet, and their steps to the next one, in
