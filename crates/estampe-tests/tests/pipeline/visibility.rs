@@ -205,9 +205,11 @@ fn packets_that_triangles_cover_are_not_cleared() {
         case.clear_color = random.four(0.0, 1.0);
         for draw in 0..=random.below(3) {
             let corner = values(random);
-            let vertices = match (draw, random.below(3)) {
-                (0, 1..) => whole_target(case.size, |[x, y]| corner.map(|value| value + x - y)),
+            let vertices = match (draw, random.below(4)) {
                 (_, 0) => triangles(random, Style::Small, case.size, 9),
+                // One triangle in each tile may replace its blocks.
+                (0, 1) => triangles(random, Style::Huge, case.size, 2),
+                (0, _) => whole_target(case.size, |[x, y]| corner.map(|value| value + x - y)),
                 _ => triangles(random, Style::Large, case.size, 2),
             };
             let mut draw = opaque(random, &vertices);
