@@ -343,7 +343,9 @@ impl Context {
         self.executor
             .for_each(&mut jobs, &memory.chunk_scratch, |job, scratch| {
                 job.chunk.clear();
-                job.chunk.triangles.expect(batch.packets(job.parts));
+                let [triangles, lines] = batch.packets(job.parts);
+                job.chunk.triangles.expect(triangles);
+                job.chunk.lines.expect(lines);
                 let mut joins_last = false;
                 for (at, part) in job.parts.iter().enumerate() {
                     let sub_draw = &batch.sub_draws[part.sub_draw as usize];

@@ -26,6 +26,9 @@ pub struct Statistics {
     pub primitives_culled: u64,
     /// Primitives that were set up and binned, clipping's pieces counted one by one.
     pub primitives_binned: u64,
+    /// Lines that were set up and binned sixteen at a time.
+    #[doc(hidden)]
+    pub lines_in_packets: u64,
     /// Fragments that went through the fragment shader, helper lanes not counted.
     pub fragments_shaded: u64,
     /// Of these, those that took the colours that the shader gave for other pixels of the same
@@ -148,6 +151,7 @@ impl std::ops::AddAssign for Statistics {
         self.primitives_clipped += other.primitives_clipped;
         self.primitives_culled += other.primitives_culled;
         self.primitives_binned += other.primitives_binned;
+        self.lines_in_packets += other.lines_in_packets;
         self.fragments_shaded += other.fragments_shaded;
         self.fragments_of_shared_colors += other.fragments_of_shared_colors;
         self.line_fragments_shown += other.line_fragments_shown;

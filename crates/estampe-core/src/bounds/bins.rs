@@ -1,20 +1,42 @@
 //! Bins: the entries of a chunk, sorted by the tiles that they touch.
 
-use estampe_simd::Lane;
-
 /// The primitives that one bin entry stands for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum BinEntry {
     /// Those triangles of a packet whose lanes are in the mask, in lane order.
     Triangles { packet: u32, lanes: u16 },
-    /// A line.
-    Line(u32),
+    /// Those lines of a packet whose lanes are in the mask, in lane order.
+    Lines { packet: u32, lanes: u16 },
     /// A point.
     Point(u32),
 }
 
 // There is an entry for each packet and tile.
 const _: () = assert!(size_of::<BinEntry>() == 8);
+
+impl BinEntry {
+    /// The number of primitives.
+    #[inline(always)]
+    pub(crate) fn count(self) -> u32 {
+        match self {
+            Self::Triangles { lanes, .. } | Self::Lines { lanes, .. } => lanes.count_ones(),
+            Self::Point(_) => 1,
+        }
+    }
+
+    /// Adds the lanes of another entry of the same packet. Returns false if it is of another kind.
+    #[inline(always)]
+    fn merge(&mut self, other: Self) -> bool {
+        match (self, other) {
+            (Self::Triangles { lanes, .. }, Self::Triangles { lanes: more, .. })
+            | (Self::Lines { lanes, .. }, Self::Lines { lanes: more, .. }) => {
+                *lanes |= more;
+                true
+            }
+            _ => false,
+        }
+    }
+}
 
 /// Entries sorted by tile.
 #[derive(Debug, Default)]
@@ -50,19 +72,16 @@ impl Bins {
         self.mergeable_from = self.unsorted.len();
     }
 
-    /// Adds one triangle of a packet to a tile: to the packet's entry for that tile if there is one
-    /// since [`Bins::end_packet`].
+    /// Adds an entry for one primitive of a packet to a tile: to the packet's entry for that tile if
+    /// there is one since [`Bins::end_packet`].
     #[inline(always)]
-    pub(crate) fn push_lane(&mut self, tile: u32, packet: u32, lane: Lane) {
-        let bit = lane.bit();
+    pub(crate) fn push_lane(&mut self, tile: u32, new: BinEntry) {
         for (at, entry) in self.unsorted[self.mergeable_from..].iter_mut().rev() {
-            if let (true, BinEntry::Triangles { lanes, .. }) = (*at == tile, entry) {
-                *lanes |= bit;
+            if *at == tile && entry.merge(new) {
                 return;
             }
         }
-        self.unsorted
-            .push((tile, BinEntry::Triangles { packet, lanes: bit }));
+        self.unsorted.push((tile, new));
     }
 
     /// Sorts the entries by tile, stably, by counting: linear in entries and in touched tiles'
@@ -122,19 +141,19 @@ mod tests {
     fn entries_come_back_by_tile_in_order() {
         let mut bins = Bins::default();
         for (index, tile) in (0..).zip([7, 3, 7, 9, 3, 7]) {
-            bins.push(tile, BinEntry::Line(index));
+            bins.push(tile, BinEntry::Point(index));
         }
         bins.sort();
-        let lines = |tile| -> Vec<u32> {
-            let line = |entry: &BinEntry| match entry {
-                BinEntry::Line(line) => *line,
-                other => panic!("{other:?} is not a line"),
+        let points = |tile| -> Vec<u32> {
+            let point = |entry: &BinEntry| match entry {
+                BinEntry::Point(point) => *point,
+                other => panic!("{other:?} is not a point"),
             };
-            bins.of_tile(tile).iter().map(line).collect()
+            bins.of_tile(tile).iter().map(point).collect()
         };
-        assert_eq!(lines(3), [1, 4]);
-        assert_eq!(lines(7), [0, 2, 5]);
-        assert_eq!(lines(9), [3]);
+        assert_eq!(points(3), [1, 4]);
+        assert_eq!(points(7), [0, 2, 5]);
+        assert_eq!(points(9), [3]);
         for tile in [0, 2, 4, 8, 10, u32::MAX] {
             assert!(bins.of_tile(tile).is_empty(), "tile {tile}");
         }
@@ -143,22 +162,14 @@ mod tests {
     #[test]
     fn lanes_merge_only_until_the_packet_ends() {
         let mut bins = Bins::default();
-        bins.push_lane(1, 0, Lane::new(0));
-        bins.push_lane(2, 0, Lane::new(1));
-        bins.push_lane(1, 0, Lane::new(2));
+        let triangles = |lanes| BinEntry::Triangles { packet: 0, lanes };
+        bins.push_lane(1, triangles(0b1));
+        bins.push_lane(2, triangles(0b10));
+        bins.push_lane(1, triangles(0b100));
         bins.end_packet();
-        bins.push_lane(1, 0, Lane::new(3));
+        bins.push_lane(1, triangles(0b1000));
         bins.sort();
-        let expected = [
-            BinEntry::Triangles {
-                packet: 0,
-                lanes: 0b101,
-            },
-            BinEntry::Triangles {
-                packet: 0,
-                lanes: 0b1000,
-            },
-        ];
+        let expected = [triangles(0b101), triangles(0b1000)];
         assert_eq!(bins.of_tile(1), expected);
     }
 }

@@ -10,7 +10,9 @@
 //! submission order, and so do the entries of a tile.
 
 use super::bins::{BinEntry, Bins};
-use super::primitives::{LinePrimitive, PackedTriangle, PointPrimitive, TrianglePacket};
+use super::lines::LinePackets;
+use super::packets::TrianglePackets;
+use super::primitives::{PackedTriangle, PointPrimitive, TrianglePacket};
 use crate::statistics::Statistics;
 use estampe_simd::LANES;
 
@@ -21,7 +23,7 @@ pub(crate) struct ChunkRun {
     /// The number of its first sub-draw in the batch.
     pub(crate) sub_draw: u32,
     first_packet: u32,
-    first_line: u32,
+    first_lines: u32,
     first_point: u32,
 }
 
@@ -31,7 +33,7 @@ impl ChunkRun {
     fn begins_by(&self, entry: BinEntry) -> bool {
         match entry {
             BinEntry::Triangles { packet, .. } => self.first_packet <= packet,
-            BinEntry::Line(line) => self.first_line <= line,
+            BinEntry::Lines { packet, .. } => self.first_lines <= packet,
             BinEntry::Point(point) => self.first_point <= point,
         }
     }
@@ -46,99 +48,6 @@ struct ChunkPart {
     sub_draw: u32,
 }
 
-/// Packets of triangles whose memory outlives the chunk's contents: a packet is 1 KB, and to fill
-/// it with zeros before it is written would cost as much as writing it.
-///
-/// Of packets that are taken apart nothing is kept but their numbers: they are made in one place,
-/// so that they stay in the cache. Such a number's memory, if there is any, holds anything.
-#[derive(Debug)]
-pub(crate) struct TrianglePackets {
-    memory: Vec<TrianglePacket>,
-    len: usize,
-    /// The number of packets if no triangle is culled.
-    most: usize,
-    /// The last packet that was not to be kept.
-    passing: Box<TrianglePacket>,
-    /// True if that is the last packet.
-    is_last_passing: bool,
-}
-
-impl Default for TrianglePackets {
-    fn default() -> Self {
-        Self {
-            memory: Vec::new(),
-            len: 0,
-            most: 0,
-            passing: Box::new(TrianglePacket::EMPTY),
-            is_last_passing: false,
-        }
-    }
-}
-
-impl TrianglePackets {
-    /// Adds a packet whose contents are stale: the caller writes every field.
-    #[inline(always)]
-    pub(crate) fn push_stale(&mut self) -> &mut TrianglePacket {
-        if self.len >= self.memory.len() {
-            self.add_memory();
-        }
-        self.is_last_passing = false;
-        self.len += 1;
-        &mut self.memory[self.len - 1]
-    }
-
-    /// Adds a packet as [`TrianglePackets::push_stale`], which is kept until the next one is added.
-    #[inline(always)]
-    pub(crate) fn push_passing(&mut self) -> &mut TrianglePacket {
-        self.is_last_passing = true;
-        self.len += 1;
-        &mut self.passing
-    }
-
-    /// The number of packets.
-    #[inline(always)]
-    pub(crate) fn len(&self) -> usize {
-        self.len
-    }
-
-    /// The last packet, and its number.
-    #[inline(always)]
-    pub(crate) fn last(&self) -> Option<(&TrianglePacket, usize)> {
-        let number = self.len.checked_sub(1)?;
-        if self.is_last_passing {
-            return Some((&self.passing, number));
-        }
-        self.memory.get(number).map(|packet| (packet, number))
-    }
-
-    /// Announces at most so many packets: memory is then taken at once, with the first of them.
-    /// Lists that double are copied to new memory each time, as packets are aligned to lines of the
-    /// cache, and the kernel clears the old as well as the new: a third of a mesh's memory.
-    pub(crate) fn expect(&mut self, most: usize) {
-        self.most = most;
-    }
-
-    #[cold]
-    fn add_memory(&mut self) {
-        let missing = self.most.saturating_sub(self.memory.len());
-        self.memory.reserve_exact(missing);
-        self.memory.resize(self.len + 1, TrianglePacket::EMPTY);
-    }
-
-    fn clear(&mut self) {
-        (self.len, self.most) = (0, 0);
-    }
-}
-
-impl std::ops::Deref for TrianglePackets {
-    type Target = [TrianglePacket];
-
-    #[inline(always)]
-    fn deref(&self) -> &[TrianglePacket] {
-        &self.memory[..self.len.min(self.memory.len())]
-    }
-}
-
 /// Primitives of one or several sub-draws, set up and binned.
 #[derive(Debug, Default)]
 pub(crate) struct Chunk {
@@ -150,7 +59,7 @@ pub(crate) struct Chunk {
     one_by_one: Vec<PackedTriangle>,
     /// By packet: those of these that make a rectangle with the next one.
     rectangles: Vec<u16>,
-    pub(crate) lines: Vec<LinePrimitive>,
+    pub(crate) lines: LinePackets,
     pub(crate) points: Vec<PointPrimitive>,
     /// Varyings of the vertices that clipping made, one after the other. The numbers of a run's
     /// vertices count in vertices of that run's size: see [`Chunk::align_clipped_varyings`].
@@ -204,12 +113,13 @@ impl Chunk {
 
     /// Begins a run with its first sub-draw.
     pub(crate) fn begin_run(&mut self, sub_draw: u32) {
-        let [first_packet, first_line, first_point] =
+        self.lines.end_run();
+        let [first_packet, first_lines, first_point] =
             [self.triangles.len(), self.lines.len(), self.points.len()].map(number);
         self.runs.push(ChunkRun {
             sub_draw,
             first_packet,
-            first_line,
+            first_lines,
             first_point,
         });
     }

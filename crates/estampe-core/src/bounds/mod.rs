@@ -1,7 +1,8 @@
 //! The boundary between geometry and tiles: the plain data that both sides name.
 //!
 //! Geometry sets primitives up and writes them to [`chunk`]s, tiles read the chunks in order, and
-//! nothing flows back. A chunk holds [`primitives`] and their [`bins`]. [`pixel_rect`],
+//! nothing flows back. A chunk holds [`primitives`] and [`lines`], most of them in
+//! [`packets`], and their [`bins`]. [`pixel_rect`],
 //! [`sample_rect`], [`plane`], [`triangle_edges`] and [`transpose`] are the values and operations
 //! that both sides use. No module here names a stage.
 
@@ -14,6 +15,10 @@ pub(crate) mod plane;
 pub(crate) mod transpose;
 
 pub(crate) mod primitives;
+
+pub(crate) mod lines;
+
+pub(crate) mod packets;
 
 pub(crate) mod triangle_edges;
 

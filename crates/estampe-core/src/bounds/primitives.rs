@@ -1,7 +1,7 @@
 //! Primitives that geometry has set up, as the tile side reads them.
 //!
-//! Triangles lie in packets of sixteen, structure of arrays; lines and points, which are few, lie
-//! one by one.
+//! Triangles lie in packets of sixteen, structure of arrays, and so do [lines](super::lines);
+//! points, which are few, lie one by one.
 
 use super::plane::{Plane, PlanePacket};
 use super::triangle_edges::{doubled_area, doubled_area_of_small};
@@ -60,6 +60,12 @@ impl TrianglePacket {
         len: 0,
         provoking: FlatVertices([VertexRef(0); LANES]),
     };
+}
+
+impl Default for TrianglePacket {
+    fn default() -> Self {
+        Self::EMPTY
+    }
 }
 
 impl TrianglePacket {
@@ -245,85 +251,6 @@ pub(crate) struct WindowVertex {
     pub(crate) z: f32,
     pub(crate) iw: f32,
     pub(crate) vertex: VertexRef,
-}
-
-impl WindowVertex {
-    /// Sets it to a vertex of the draw: x, y, depth and 1/w as bits.
-    #[inline(always)]
-    pub(crate) fn set(&mut self, vertex: u32, [x, y, z, iw]: &[u32; 4]) {
-        self.x = x.cast_signed();
-        self.y = y.cast_signed();
-        self.z = f32::from_bits(*z);
-        self.iw = f32::from_bits(*iw);
-        self.vertex = VertexRef(vertex);
-    }
-}
-
-/// A line, from its first to its second end: a cache line.
-#[derive(Debug, Clone, Copy, Default)]
-#[repr(align(64))]
-pub(crate) struct LinePrimitive {
-    pub(crate) ends: [WindowVertex; 2],
-    pub(crate) provoking: VertexRef,
-    pub(crate) front: bool,
-    /// The phase of the stipple pattern at the line's start, if there is a pattern: the number of
-    /// fragments of its strip before the line, modulo the pattern's length; for rectangles in
-    /// 1/65536 pixel.
-    pub(crate) stipple: u32,
-}
-
-/// Sixteen lines, or halves of lines.
-#[derive(Debug, Clone)]
-#[repr(C, align(64))]
-pub(crate) struct LinePacket {
-    /// Of both ends: snapped positions in 1/256 pixel, depth, 1/w, references to varyings.
-    pub(crate) x: [[i32; LANES]; 2],
-    pub(crate) y: [[i32; LANES]; 2],
-    pub(crate) z: [[f32; LANES]; 2],
-    pub(crate) iw: [[f32; LANES]; 2],
-    pub(crate) vertex: [[VertexRef; LANES]; 2],
-    /// The vertex that flat varyings come from.
-    pub(crate) provoking: [VertexRef; LANES],
-    /// Bit by lane: it belongs to something that faces the viewer.
-    pub(crate) front: u16,
-    /// The lanes that are a half of a line, and of these the second halves.
-    pub(crate) halves: u16,
-    pub(crate) seconds: u16,
-}
-
-impl LinePacket {
-    pub(crate) const EMPTY: Self = Self {
-        x: [[0; LANES]; 2],
-        y: [[0; LANES]; 2],
-        z: [[0.0; LANES]; 2],
-        iw: [[0.0; LANES]; 2],
-        vertex: [[VertexRef(0); LANES]; 2],
-        provoking: [VertexRef(0); LANES],
-        front: 0,
-        halves: 0,
-        seconds: 0,
-    };
-
-    /// Sets a lane to a line, or to the half of it that has a number.
-    #[inline(always)]
-    pub(crate) fn set(&mut self, lane: usize, line: &LinePrimitive, half: Option<usize>) {
-        for (number, end) in line.ends.iter().enumerate() {
-            self.x[number][lane] = end.x;
-            self.y[number][lane] = end.y;
-            self.z[number][lane] = end.z;
-            self.iw[number][lane] = end.iw;
-            self.vertex[number][lane] = end.vertex;
-        }
-        self.provoking[lane] = line.provoking;
-        let bit = 1 << lane;
-        for (mask, is_in) in [
-            (&mut self.front, line.front),
-            (&mut self.halves, half.is_some()),
-            (&mut self.seconds, half == Some(1)),
-        ] {
-            *mask = *mask & !bit | u16::from(is_in) << lane;
-        }
-    }
 }
 
 /// A point.

@@ -6,7 +6,7 @@
 
 use super::cross_triangle::{Row, bits_of_row, fetch_flat, fetch_rows, of_lanes};
 use super::interpolate::{VaryingSource, smooth_derivatives};
-use crate::bounds::primitives::LinePacket;
+use crate::bounds::lines::LinePacket;
 use crate::geometry::line_style::LineShape;
 use estampe_simd::{
     Bytes, LANES, Lanes, Packet, Select, SimdBase, SimdCvtFloat, f32x16, i32x16, u32x16,
@@ -79,7 +79,7 @@ impl CrossLines {
             (ends[1] - ends[0]).store_array(&mut change.0);
         }
         if source.modes.contains(&Interpolation::Flat) {
-            fetch_flat(&mut self.from, &packet.provoking, lanes, source);
+            fetch_flat(&mut self.from, &packet.provoking.0, lanes, source);
         }
     }
 

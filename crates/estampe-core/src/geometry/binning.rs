@@ -3,13 +3,14 @@
 //! *In* set-up primitives · *Out* entries of [`Bins`] · *Space* window, tiles ·
 //! *Precision* exact.
 //!
-//! Most triangles of a large mesh lie in one tile, and so do their neighbours: those of a packet
-//! that share a tile are found sixteen at a time and get one entry.
+//! Most triangles and lines of a large mesh lie in one tile, and so do their neighbours: those of a
+//! packet that share a tile are found sixteen at a time and get one entry.
 
 use super::plan::GeometryPlan;
 use crate::bounds::bins::{BinEntry, Bins};
 use crate::bounds::chunk::{Chunk, number};
-use crate::bounds::primitives::{LinePrimitive, PointPrimitive, TrianglePacket};
+use crate::bounds::lines::LinePrimitive;
+use crate::bounds::primitives::{PointPrimitive, TrianglePacket};
 use estampe_simd::{LANES, Lane, Lanes, SimdBase, i32x16, outline};
 
 /// A half-open range of tiles.
@@ -21,7 +22,7 @@ struct TileRange {
     y1: i32,
 }
 
-/// The tiles of sixteen triangles: first and last column and row.
+/// The tiles of sixteen primitives: first and last column and row.
 struct TileRanges<S: Lanes> {
     x0: i32x16<S>,
     y0: i32x16<S>,
@@ -29,7 +30,7 @@ struct TileRanges<S: Lanes> {
     y1: i32x16<S>,
 }
 
-/// The most tiles of a triangle whose entries are merged with its neighbours'.
+/// The most tiles of a primitive whose entries are merged with its neighbours'.
 const FEW_TILES: i32 = 4;
 
 impl<S: Lanes> TileRanges<S> {
@@ -66,80 +67,84 @@ pub(crate) fn bin_packet<S: Lanes>(
             unreachable!("a packet was just set up");
         };
         let packet = number(packet);
-        let bins = &mut chunk.bins;
-        bins.end_packet();
         let used = u16::MAX >> (LANES - usize::from(last.len).min(LANES)) & !(rectangles << 1);
-        let splat = |value: i32| <i32x16<S> as SimdBase<S>>::splat(s, value);
-        let (columns, rows) = (ranges.x1 - ranges.x0, ranges.y1 - ranges.y0);
-        let single = s.bits_of_mask((columns | rows).simd_eq(splat(0))) & used;
-        let mut rest = single;
-        if single != used {
-            let tiles = (columns + splat(1)) * (rows + splat(1));
-            let many = s.bits_of_mask(tiles.simd_gt(splat(FEW_TILES))) & used;
-            if many != 0 {
-                // One by one, because triangles must not be merged across these.
-                rest = 0;
-            }
-        }
-        let (left, top) = (ranges.x0.to_array(), ranges.y0.to_array());
-        let one_by_one = used & !rest;
-        while let Some(lane) = Lane::first_of(rest) {
-            let (x, y) = (lane.of(&left), lane.of(&top));
-            let shares = ranges.x0.simd_eq(splat(x)) & ranges.y0.simd_eq(splat(y));
-            let lanes = s.bits_of_mask(shares) & rest;
-            rest &= !lanes;
-            let tile = plan.grid.tile_at(x.cast_unsigned(), y.cast_unsigned());
-            bins.push(tile, BinEntry::Triangles { packet, lanes });
-        }
-        if one_by_one != 0 {
-            let (right, bottom) = (ranges.x1.to_array(), ranges.y1.to_array());
-            for lane in Lane::all_of(one_by_one) {
-                let range = TileRange {
-                    x0: lane.of(&left),
-                    y0: lane.of(&top),
-                    x1: lane.of(&right) + 1,
-                    y1: lane.of(&bottom) + 1,
-                };
-                let triangle = PacketLane {
-                    triangles: last,
-                    packet,
-                    lane,
-                    fills_box: lane.is_in(rectangles),
-                };
-                bin_lane(plan, triangle, range, bins);
-            }
-        }
+        let entry = |lanes| BinEntry::Triangles { packet, lanes };
+        // Rectangles fill their boxes.
+        let edges = |lane: Lane| {
+            let misses_none = lane.is_in(rectangles);
+            (!misses_none).then(|| TileEdges::new(last, lane, plan.sample_range))
+        };
+        bin_lanes(s, plan, (&ranges, used), (entry, edges), &mut chunk.bins);
     })
 }
 
-/// One triangle of a packet.
-#[derive(Debug, Clone, Copy)]
-struct PacketLane<'p> {
-    triangles: &'p TrianglePacket,
-    /// The packet's number in the chunk.
-    packet: u32,
-    lane: Lane,
-    /// True if it stands for a rectangle.
-    fills_box: bool,
+/// Bins some primitives of a packet, of which `entry` makes entries. `edges` are those of the one
+/// in a lane, to tell tiles of its box that it misses.
+#[inline(always)]
+fn bin_lanes<S: Lanes>(
+    s: S,
+    plan: &GeometryPlan,
+    (ranges, used): (&TileRanges<S>, u16),
+    (entry, edges): (impl Fn(u16) -> BinEntry, impl Fn(Lane) -> Option<TileEdges>),
+    bins: &mut Bins,
+) {
+    bins.end_packet();
+    let splat = |value: i32| <i32x16<S> as SimdBase<S>>::splat(s, value);
+    let (columns, rows) = (ranges.x1 - ranges.x0, ranges.y1 - ranges.y0);
+    let single = s.bits_of_mask((columns | rows).simd_eq(splat(0))) & used;
+    let mut rest = single;
+    if single != used {
+        let tiles = (columns + splat(1)) * (rows + splat(1));
+        let many = s.bits_of_mask(tiles.simd_gt(splat(FEW_TILES))) & used;
+        if many != 0 {
+            // One by one, because primitives must not be merged across these.
+            rest = 0;
+        }
+    }
+    let (left, top) = (ranges.x0.to_array(), ranges.y0.to_array());
+    let one_by_one = used & !rest;
+    while let Some(lane) = Lane::first_of(rest) {
+        let (x, y) = (lane.of(&left), lane.of(&top));
+        let shares = ranges.x0.simd_eq(splat(x)) & ranges.y0.simd_eq(splat(y));
+        let lanes = s.bits_of_mask(shares) & rest;
+        rest &= !lanes;
+        let tile = plan.grid.tile_at(x.cast_unsigned(), y.cast_unsigned());
+        bins.push(tile, entry(lanes));
+    }
+    if one_by_one != 0 {
+        let (right, bottom) = (ranges.x1.to_array(), ranges.y1.to_array());
+        for lane in Lane::all_of(one_by_one) {
+            let range = TileRange {
+                x0: lane.of(&left),
+                y0: lane.of(&top),
+                x1: lane.of(&right) + 1,
+                y1: lane.of(&bottom) + 1,
+            };
+            bin_range(plan, range, entry(lane.bit()), || edges(lane), bins);
+        }
+    }
 }
 
-/// Bins one triangle, leaving out tiles of its box that it misses.
-fn bin_lane(plan: &GeometryPlan, triangle: PacketLane<'_>, range: TileRange, bins: &mut Bins) {
-    let PacketLane {
-        packet,
-        lane,
-        fills_box,
-        ..
-    } = triangle;
+/// Bins one primitive of a packet, leaving out tiles of its box that it misses.
+fn bin_range(
+    plan: &GeometryPlan,
+    range: TileRange,
+    entry: BinEntry,
+    edges: impl FnOnce() -> Option<TileEdges>,
+    bins: &mut Bins,
+) {
     let (columns, rows) = (range.x1 - range.x0, range.y1 - range.y0);
-    // A triangle of many tiles has entries of its own: looking for one to merge with would
+    // A primitive of many tiles has entries of its own: looking for one to merge with would
     // take time quadratic in tiles. Small ones before and after it must not merge across it.
     let many = columns * rows > FEW_TILES;
     if many {
         bins.end_packet();
     }
-    let misses_some = columns > 1 && rows > 1 && !fills_box;
-    let edges = misses_some.then(|| TileEdges::new(triangle, plan.sample_range));
+    let edges = if columns > 1 && rows > 1 {
+        edges()
+    } else {
+        None
+    };
     let misses = |x, y| {
         let edges = edges.as_ref();
         edges.is_some_and(|edges| edges.miss(x, y, plan.grid.tile_log2()))
@@ -151,10 +156,9 @@ fn bin_lane(plan: &GeometryPlan, triangle: PacketLane<'_>, range: TileRange, bin
             }
             let tile = plan.grid.tile_at(x.cast_unsigned(), y.cast_unsigned());
             if many {
-                let lanes = lane.bit();
-                bins.push(tile, BinEntry::Triangles { packet, lanes });
+                bins.push(tile, entry);
             } else {
-                bins.push_lane(tile, packet, lane);
+                bins.push_lane(tile, entry);
             }
         }
     }
@@ -165,91 +169,90 @@ fn bin_lane(plan: &GeometryPlan, triangle: PacketLane<'_>, range: TileRange, bin
 
 /// Adds a line to a chunk; its pixels begin no farther from it than the line style's reach.
 #[inline(never)]
-pub(crate) fn push_line(plan: &GeometryPlan, line: LinePrimitive, chunk: &mut Chunk) {
+pub(crate) fn push_line(plan: &GeometryPlan, line: &LinePrimitive, chunk: &mut Chunk) {
     let [a, b] = &line.ends;
-    let range = TileRange::new(
+    let Some(range) = TileRange::new(
         plan,
         [a.x.min(b.x), a.y.min(b.y), a.x.max(b.x), a.y.max(b.y)],
         plan.line_style.reach(),
-    );
-    let entry = BinEntry::Line(number(chunk.lines.len()));
-    chunk.lines.push(line);
-    push_range(plan, range, entry, chunk);
+    ) else {
+        return;
+    };
+    let lane = chunk.lines.push_line(line);
+    chunk.statistics.primitives_binned += 1;
+    let entry = BinEntry::Lines {
+        packet: number(chunk.lines.len() - 1),
+        lanes: lane.bit(),
+    };
+    if lane == Lane::new(0) {
+        chunk.bins.end_packet();
+    }
+    bin_range(plan, range, entry, || None, &mut chunk.bins);
 }
 
 /// The tiles of sixteen lines.
-pub(crate) struct LineTiles {
-    /// The lines that touch any, and those that touch one.
+pub(crate) struct LineTiles<S: Lanes> {
+    /// The lines that touch any.
     pub(crate) any: u16,
-    pub(crate) one: u16,
-    /// Column and row of the first tile.
-    first: [[i32; LANES]; 2],
+    ranges: TileRanges<S>,
 }
 
-impl LineTiles {
+impl<S: Lanes> LineTiles<S> {
     /// Those of lines whose ends have these x and y.
     #[inline(always)]
-    pub(crate) fn new<S: Lanes>(
-        s: S,
-        plan: &GeometryPlan,
-        ends: [[i32x16<S>; 2]; 2],
-        reach: i32,
-    ) -> Self {
+    pub(crate) fn new(s: S, plan: &GeometryPlan, [x, y]: [[i32x16<S>; 2]; 2]) -> Self {
         let splat = |value: i32| <i32x16<S> as SimdBase<S>>::splat(s, value);
         let (rect, log2) = (plan.rect, plan.grid.tile_log2());
-        let limits = [[rect.x0, rect.x1 - 1], [rect.y0, rect.y1 - 1]];
-        let (mut misses, mut spans) = (splat(0), splat(0));
-        let mut first = [[0; LANES]; 2];
-        for ((to, [a, b]), [low, high]) in first.iter_mut().zip(ends).zip(limits) {
-            let from = ((a.min(b) - reach) >> 8).max(splat(low));
-            let last = ((a.max(b) + reach) >> 8).min(splat(high));
-            // The sign bit is set if there is no pixel.
-            misses |= last - from;
-            spans |= (from >> log2) ^ (last >> log2);
-            (from >> log2).store_array(to);
-        }
-        let any = !s.sign_bits(misses);
-        Self {
-            any,
-            one: any & s.bits_of_mask(spans.simd_eq(splat(0))),
-            first,
-        }
-    }
-
-    /// The only tile of the line in a lane.
-    #[inline(always)]
-    fn only(&self, plan: &GeometryPlan, lane: Lane) -> u32 {
-        let [column, row] = [lane.of(&self.first[0]), lane.of(&self.first[1])];
-        plan.grid
-            .tile_at(column.cast_unsigned(), row.cast_unsigned())
+        let reach = plan.line_style.reach();
+        let first = |[a, b]: [i32x16<S>; 2], low: i32| ((a.min(b) - reach) >> 8).max(splat(low));
+        let last = |[a, b]: [i32x16<S>; 2], end: i32| ((a.max(b) + reach) >> 8).min(splat(end - 1));
+        let (x0, x1) = (first(x, rect.x0), last(x, rect.x1));
+        let (y0, y1) = (first(y, rect.y0), last(y, rect.y1));
+        // The sign bit is set if there is no pixel.
+        let any = !s.sign_bits((x1 - x0) | (y1 - y0));
+        let ranges = TileRanges {
+            x0: x0 >> log2,
+            y0: y0 >> log2,
+            x1: x1 >> log2,
+            y1: y1 >> log2,
+        };
+        Self { any, ranges }
     }
 }
 
-/// Adds an empty line to a chunk, in the only tile that the line in a lane touches. It is filled
-/// where it lies: a line made elsewhere is copied as a whole, which waits for the stores of its
-/// parts.
+/// Bins some lines of the last packet of a chunk, which all touch tiles.
 #[inline(always)]
-pub(crate) fn push_line_of<'c>(
+pub(crate) fn bin_lines<S: Lanes>(
+    s: S,
     plan: &GeometryPlan,
-    tiles: &LineTiles,
-    lane: Lane,
-    chunk: &'c mut Chunk,
-) -> &'c mut LinePrimitive {
-    let number_in_chunk = chunk.lines.len();
-    let entry = BinEntry::Line(number(number_in_chunk));
-    chunk.statistics.primitives_binned += 1;
-    chunk.bins.push(tiles.only(plan, lane), entry);
-    chunk.lines.push(LinePrimitive::default());
-    &mut chunk.lines[number_in_chunk]
+    (tiles, lanes): (&LineTiles<S>, u16),
+    chunk: &mut Chunk,
+) {
+    let packet = number(chunk.lines.len() - 1);
+    let count = u64::from(lanes.count_ones());
+    chunk.statistics.primitives_binned += count;
+    chunk.statistics.lines_in_packets += count;
+    let entry = |lanes| BinEntry::Lines { packet, lanes };
+    let ranges = (&tiles.ranges, lanes);
+    bin_lanes(s, plan, ranges, (entry, |_| None), &mut chunk.bins);
 }
 
 /// Adds a point to a chunk.
 pub(crate) fn push_point(plan: &GeometryPlan, point: PointPrimitive, chunk: &mut Chunk) {
     let (x, y, half) = (point.center.x, point.center.y, point.half);
-    let range = TileRange::new(plan, [x - half, y - half, x + half, y + half], 0);
     let entry = BinEntry::Point(number(chunk.points.len()));
     chunk.points.push(point);
-    push_range(plan, range, entry, chunk);
+    let around = [x - half, y - half, x + half, y + half];
+    let Some(range) = TileRange::new(plan, around, 0) else {
+        return;
+    };
+    chunk.statistics.primitives_binned += 1;
+    for y in range.y0..range.y1 {
+        for x in range.x0..range.x1 {
+            let tile = plan.grid.tile_at(x.cast_unsigned(), y.cast_unsigned());
+            chunk.bins.push(tile, entry);
+        }
+    }
 }
 
 impl TileRange {
@@ -270,19 +273,6 @@ impl TileRange {
     }
 }
 
-fn push_range(plan: &GeometryPlan, range: Option<TileRange>, entry: BinEntry, chunk: &mut Chunk) {
-    let Some(range) = range else {
-        return;
-    };
-    chunk.statistics.primitives_binned += 1;
-    for y in range.y0..range.y1 {
-        for x in range.x0..range.x1 {
-            let tile = plan.grid.tile_at(x.cast_unsigned(), y.cast_unsigned());
-            chunk.bins.push(tile, entry);
-        }
-    }
-}
-
 /// The edges of one triangle, to tell tiles of its box that it misses. Exact in 64 bits.
 struct TileEdges {
     /// For each edge the values at a point: `a·x + b·y + c`, in 1/256 pixel; inside is ≥ 0.
@@ -291,8 +281,7 @@ struct TileEdges {
 }
 
 impl TileEdges {
-    fn new(triangle: PacketLane<'_>, sample_range: [i32; 2]) -> Self {
-        let (packet, lane) = (triangle.triangles, triangle.lane);
+    fn new(packet: &TrianglePacket, lane: Lane, sample_range: [i32; 2]) -> Self {
         let at = |corner: usize| {
             (
                 i64::from(lane.of(&packet.x[corner])),

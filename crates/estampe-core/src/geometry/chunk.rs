@@ -7,8 +7,8 @@ use super::groups::PrimitiveGroups;
 use super::lines::LineWalk;
 use super::run::RunWork;
 use super::setup::{Setup, SetupScratch};
-use super::{filled, points, polygon_mode};
-use crate::bounds::chunk::{Chunk, number};
+use super::{filled, lines, points, polygon_mode};
+use crate::bounds::chunk::Chunk;
 use crate::pipeline::primitive_kind::PrimitiveKind;
 use estampe_simd::dispatch;
 
@@ -78,19 +78,17 @@ fn add_lines_and_points(
     group: &mut TriangleGroup,
     clip: &mut ClipDetour,
 ) {
+    if work.plan.kind == PrimitiveKind::Lines {
+        return lines::draw(work, group, setup, clip);
+    }
     let mut primitives = PrimitiveGroups::new(&work.elements, work.instance, work.primitives);
-    let mut lines = LineWalk::default();
+    let mut walk = LineWalk::default();
     while let Some(some) = primitives.next_of_instance(&mut group.vertices) {
         let corners = &group.vertices[..some.count];
-        match work.plan.kind {
-            PrimitiveKind::Triangles => {
-                polygon_mode::draw(work, corners, &mut lines, setup, clip);
-            }
-            PrimitiveKind::Lines => {
-                let numbers = [some.first, number(some.count)];
-                lines.draw(work, numbers, group, setup, clip);
-            }
-            PrimitiveKind::Points => points::draw(work, corners, setup, clip),
+        if work.plan.kind == PrimitiveKind::Triangles {
+            polygon_mode::draw(work, corners, &mut walk, setup, clip);
+        } else {
+            points::draw(work, corners, setup, clip);
         }
     }
 }

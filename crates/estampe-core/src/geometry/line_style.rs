@@ -8,7 +8,7 @@
 //! *Precision* exact integers, but for the rectangle's corners, which are rounded to 1/256 pixel ·
 //! *Spec* Vulkan §Line Segments; `docs/NUMERICS.md`.
 
-use crate::bounds::primitives::LinePrimitive;
+use crate::bounds::lines::LinePrimitive;
 use estampe_types::state::{LineRasterization, LineState, LineStipple};
 
 /// The shape of a pipeline's lines.

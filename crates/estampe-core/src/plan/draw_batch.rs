@@ -8,6 +8,7 @@ use crate::attachment::RenderTarget;
 use crate::commands::Draw;
 use crate::geometry::plan::GeometryPlan;
 use crate::geometry::shaded_vertices::VertexSpan;
+use crate::pipeline::primitive_kind::PrimitiveKind;
 use crate::tile_path::{PathFacts, TilePath};
 use estampe_simd::{LANES, Level};
 use std::ops::Range;
@@ -114,17 +115,20 @@ impl<'a> DrawBatch<'a> {
         a.rasterizes_like(b) && TilePath::choose(a.draw.pipeline, &facts).joins_draws()
     }
 
-    /// The packets of triangles of a chunk, if none is culled.
-    pub(crate) fn packets(&self, parts: &[ChunkPart]) -> usize {
-        let packets = |part: &ChunkPart| {
+    /// The packets of triangles and of lines of a chunk, if none is culled.
+    pub(crate) fn packets(&self, parts: &[ChunkPart]) -> [usize; 2] {
+        let (mut triangles, mut lines) = (0, 0);
+        for part in parts {
             let [from, to] = part.primitives;
+            let packets = ((to - from) as usize).div_ceil(LANES);
             let plan = self.plan(&self.sub_draws[part.sub_draw as usize]);
-            match plan.fills_triangles() {
-                true => ((to - from) as usize).div_ceil(LANES),
-                false => 0,
+            match plan.kind {
+                PrimitiveKind::Triangles if plan.fills_triangles() => triangles += packets,
+                PrimitiveKind::Lines => lines += packets,
+                PrimitiveKind::Triangles | PrimitiveKind::Points => {}
             }
-        };
-        parts.iter().map(packets).sum()
+        }
+        [triangles, lines]
     }
 
     /// Resolves the state that tiles read; sub-draws in a row share it.

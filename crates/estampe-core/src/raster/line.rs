@@ -10,8 +10,8 @@
 
 use super::triangle::TilePolygon;
 use super::{CoverageList, MAX_PACKETS, TileShape};
+use crate::bounds::lines::LinePrimitive;
 use crate::bounds::pixel_rect::PixelRect;
-use crate::bounds::primitives::LinePrimitive;
 use crate::geometry::line_style::{LineAxis, LineRectangle, LineShape, LineStyle, along, length};
 use estampe_simd::{LANE_X, LANE_Y, LANES, Lanes};
 

@@ -261,10 +261,7 @@ impl<const N: usize> TileScratch<N> {
 
     /// Counts the primitives of a path.
     fn count(&mut self, path: TilePath, entries: &[BinEntry]) {
-        let counts = entries.iter().map(|entry| match entry {
-            BinEntry::Triangles { lanes, .. } => u64::from(lanes.count_ones()),
-            BinEntry::Line(_) | BinEntry::Point(_) => 1,
-        });
+        let counts = entries.iter().map(|entry| u64::from(entry.count()));
         self.statistics.paths.add(path, counts.sum());
     }
 }

@@ -4,7 +4,7 @@ use super::Interpolant;
 use super::pixels::WindowPixels;
 use super::triangle::smooth_derivatives;
 use super::varyings::VaryingSource;
-use crate::bounds::primitives::LinePrimitive;
+use crate::bounds::lines::LinePrimitive;
 use crate::geometry::line_style::{
     LineAxis, LineRectangle, LineShape, LineStyle, along, length_squared,
 };
@@ -16,7 +16,7 @@ use estampe_types::Interpolation;
 /// A line.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct LineInterpolant<'a> {
-    line: &'a LinePrimitive,
+    line: LinePrimitive,
     axis: LineAxis,
     /// The rectangle's width, where the line is one.
     rectangle: Option<f32>,
@@ -33,11 +33,7 @@ const MARGIN: i64 = 2048;
 
 impl<'a> LineInterpolant<'a> {
     #[inline]
-    pub(crate) fn new(
-        line: &'a LinePrimitive,
-        style: &LineStyle,
-        source: VaryingSource<'a>,
-    ) -> Self {
+    pub(crate) fn new(line: LinePrimitive, style: &LineStyle, source: VaryingSource<'a>) -> Self {
         let [a, b] = &line.ends;
         let way = [b.x - a.x, b.y - a.y];
         let longest = way.map(i64::from).map(i64::abs);
@@ -49,7 +45,7 @@ impl<'a> LineInterpolant<'a> {
         let most = longest + i64::from(style.reach()) + MARGIN;
         Self {
             line,
-            axis: LineAxis::new(line),
+            axis: LineAxis::new(&line),
             rectangle,
             way,
             is_short: 2 * longest * most < 1 << 31,
@@ -59,8 +55,8 @@ impl<'a> LineInterpolant<'a> {
 
     /// The line.
     #[inline(always)]
-    pub(crate) fn primitive(&self) -> &'a LinePrimitive {
-        self.line
+    pub(crate) fn primitive(&self) -> &LinePrimitive {
+        &self.line
     }
 
     /// The part of each pixel that the line's rectangle covers, from 0 to 1, estimated with sixteen
@@ -68,7 +64,7 @@ impl<'a> LineInterpolant<'a> {
     pub(crate) fn coverage(&self, [x, y]: [i32; 2]) -> Packet<f32> {
         let rectangle = self
             .rectangle
-            .and_then(|width| LineRectangle::new(self.line, width));
+            .and_then(|width| LineRectangle::new(&self.line, width));
         let mut covered = Packet([1.0; LANES]);
         if let Some(rectangle) = rectangle {
             for (lane, covered) in covered.0.iter_mut().enumerate() {
@@ -98,7 +94,7 @@ impl<'a> LineInterpolant<'a> {
                 return f32x16::float_from(along) / delta;
             }
             let [right, below] = offset.map(|pixels| (pixels * 256.0) as i32);
-            let squared = length_squared(self.line) as f32;
+            let squared = length_squared(&self.line) as f32;
             if self.is_short {
                 let [from, _] = &self.line.ends;
                 let from_x = (x << 8) + splat(right - from.x);
@@ -123,7 +119,7 @@ impl<'a> LineInterpolant<'a> {
     ) -> [f32; LANES] {
         let mut fraction = [0.0; LANES];
         for ((fraction, x), y) in fraction.iter_mut().zip(x).zip(y) {
-            *fraction = along(self.line, [x * 256 + right, y * 256 + below]) as f32 / squared;
+            *fraction = along(&self.line, [x * 256 + right, y * 256 + below]) as f32 / squared;
         }
         fraction
     }
@@ -157,7 +153,14 @@ impl<'a> LineInterpolant<'a> {
     ) {
         let [a, b] = &self.line.ends;
         let (from, to) = (self.source.of(a.vertex), self.source.of(b.vertex));
-        let provoking = self.source.of(self.line.provoking);
+        // No vertex is provoking where none need be.
+        let has_flat = self.source.modes.contains(&Interpolation::Flat);
+        let provoking = if has_flat {
+            self.line.provoking
+        } else {
+            a.vertex
+        };
+        let provoking = self.source.of(provoking);
         let t = self.fraction(s, pixels, [0.5; 2]);
         let perspective = a.iw.to_bits() != b.iw.to_bits();
         let one = <f32x16<S> as SimdBase<S>>::splat(s, 1.0);
@@ -209,7 +212,7 @@ impl<'a> LineInterpolant<'a> {
                 [0.0, slope]
             };
         }
-        let squared = length_squared(self.line) as f32;
+        let squared = length_squared(&self.line) as f32;
         self.way.map(|way| 256.0 * way as f32 / squared)
     }
 }

@@ -18,8 +18,8 @@ mod tests;
 
 use super::small::{BoxPixels, EdgeLanes, SIDE, SmallBoxes, ends};
 use super::{SampleSet, TileShape};
+use crate::bounds::lines::LinePacket;
 use crate::bounds::pixel_rect::PixelRect;
-use crate::bounds::primitives::{LinePacket, LinePrimitive};
 use crate::geometry::line_style::LineShape;
 use estampe_simd::{
     LANES, Lanes, Select, SimdBase, SimdCvtFloat, SimdFloat, f32x16, i32x16, mask32x16,
@@ -38,37 +38,53 @@ const EXTENT: i32 = 14 * 256;
 /// 1/256 pixel: half its width times √2, and the rounding of [`Bounds::halved`].
 const REACH: f32 = 182.0 + 3.0;
 
-/// The lanes that a line takes: 0 if it is drawn alone.
-#[inline(always)]
-pub(crate) fn lanes_of<const N: usize>(
-    line: &LinePrimitive,
-    shape: LineShape,
-    quads: bool,
-) -> usize {
-    let [a, b] = &line.ends;
-    let longest = (b.x - a.x).abs().max((b.y - a.y).abs());
-    if longest >= EXTENT {
-        return 0;
-    }
-    let (width, across) = match shape {
-        LineShape::Columns { width } => (width as f32, 0.0),
-        LineShape::Rectangle { width, .. } => (width, width * 182.0),
-    };
-    let columns = columns_in(longest as f32 + across) + i32::from(quads);
-    if columns <= SIDE {
-        1
-    } else if const { N == 1 } && width <= 1.0 && columns <= 2 * HALF {
-        2
-    } else {
-        0
+/// How many lanes lines take: those in neither mask are drawn alone.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub(crate) struct LineSizes {
+    /// Those that take one lane.
+    pub(crate) one: u16,
+    /// Those that take two.
+    pub(crate) two: u16,
+}
+
+impl LineSizes {
+    /// Those of a packet's lines; of what is in lanes that are not in use, anything.
+    #[inline(always)]
+    pub(crate) fn new<S: Lanes, const N: usize>(
+        s: S,
+        packet: &LinePacket,
+        shape: LineShape,
+        quads: bool,
+    ) -> Self {
+        let longest = LineLanes::new(s, packet).length;
+        let (width, across) = match shape {
+            LineShape::Columns { width } => (width as f32, 0.0),
+            LineShape::Rectangle { width, .. } => (width, width * 182.0),
+        };
+        // An extent of n pixels holds the centres of n + 1 columns at most.
+        let extent = (f32x16::float_from(longest) + across) * (1.0 / 256.0);
+        let holds_up_to = |columns: i32| {
+            let columns = (columns - i32::from(quads)) as f32;
+            s.bits_of_mask(extent.simd_lt(<f32x16<S> as SimdBase<S>>::splat(s, columns)))
+        };
+        let limit = <i32x16<S> as SimdBase<S>>::splat(s, EXTENT);
+        let short = s.bits_of_mask(longest.simd_lt(limit));
+        let one = short & holds_up_to(SIDE);
+        let two = if const { N == 1 } && width <= 1.0 {
+            short & holds_up_to(2 * HALF) & !one
+        } else {
+            0
+        };
+        Self { one, two }
     }
 }
 
-/// The most columns of pixels whose centres an extent in 1/256 pixel holds.
-#[inline(always)]
-#[expect(clippy::cast_possible_truncation, reason = "`as` saturates")]
-fn columns_in(extent: f32) -> i32 {
-    (extent * (1.0 / 256.0)) as i32 + 1
+/// Those lanes of a packet that are halves of lines.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct LineHalves {
+    /// First and second halves.
+    pub(crate) any: u16,
+    pub(crate) seconds: u16,
 }
 
 /// Sixteen lines: where they begin, and the way to their ends.
@@ -267,7 +283,7 @@ impl<const N: usize> SmallBoxes<N> {
     pub(crate) fn cover_lines<S: Lanes>(
         &mut self,
         s: S,
-        (packet, lanes): (&LinePacket, u16),
+        (packet, lanes, halves): (&LinePacket, u16, LineHalves),
         (shape, quads): (LineShape, bool),
         ((tile, rect), samples): ((TileShape, &PixelRect), SampleSet<N>),
     ) -> u16 {
@@ -295,7 +311,7 @@ impl<const N: usize> SmallBoxes<N> {
         }
         let (mut across, mut down) = (x_last - x_first, y_last - y_first);
         let x_major = lines.x_major;
-        let is_half = s.mask_from_bits(packet.halves);
+        let is_half = s.mask_from_bits(halves.any);
         let along = x_major.select(across, down);
         let is_small = is_half
             .select(along, across.max(down))
@@ -305,8 +321,8 @@ impl<const N: usize> SmallBoxes<N> {
         if small == 0 {
             return 0;
         }
-        if packet.halves & small != 0 {
-            let is_second = s.mask_from_bits(packet.seconds);
+        if halves.any & small != 0 {
+            let is_second = s.mask_from_bits(halves.seconds);
             let moved = is_second.select(splat(HALF), splat(0));
             let column = x_major.select(x_first, y_first) + moved;
             let row = Bounds::halved(s, &lines, column)

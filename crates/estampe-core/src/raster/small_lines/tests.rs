@@ -1,11 +1,12 @@
 //! Small lines are covered as lines are that are drawn alone.
 
 use super::*;
+use crate::bounds::lines::LinePrimitive;
 use crate::bounds::primitives::WindowVertex;
 use crate::geometry::line_style::LineStyle;
 use crate::raster::pixel_list::{PixelList, Pixels, lane_of};
 use crate::raster::{CoverageList, line};
-use estampe_simd::{Level, dispatch, u32x16};
+use estampe_simd::{Lane, Level, dispatch, u32x16};
 
 const TILE: TileShape = TileShape {
     x: 192,
@@ -48,10 +49,26 @@ fn alone<const N: usize>(lines: &[LinePrimitive], shape: LineShape, rect: &Pixel
     lines.iter().map(of_line).collect()
 }
 
+/// The lanes that a line takes, which are the same at every level; 0 if it is drawn alone.
+fn lanes_of<const N: usize>(line: &LinePrimitive, shape: LineShape, quads: bool) -> usize {
+    let mut packet = LinePacket::default();
+    packet.set(Lane::new(0), line);
+    let of_level = |level| {
+        let sizes = dispatch!(@wide level, s => LineSizes::new::<_, N>(s, &packet, shape, quads),
+            scalar => unreachable!("it draws line by line"));
+        usize::from(sizes.one & 1) + 2 * usize::from(sizes.two & 1)
+    };
+    let levels = Level::all_available().into_iter();
+    let mut sizes = levels.filter(|level| !level.is_scalar()).map(of_level);
+    let size = sizes.next().unwrap_or(0);
+    assert!(sizes.all(|of_level| of_level == size), "{line:?}");
+    size
+}
+
 /// Covers the lines of a packet together.
 fn together<const N: usize>(
     level: Level,
-    (packet, lanes): (&LinePacket, u16),
+    lines: (&LinePacket, u16, LineHalves),
     (shape, quads): (LineShape, bool),
     rect: &PixelRect,
 ) -> (u16, Pixelwise) {
@@ -60,7 +77,7 @@ fn together<const N: usize>(
     let samples = SampleSet::new(N);
     let covered = dispatch!(@wide level, s => {
         let tile = (TILE, rect);
-        let covered = small.cover_lines(s, (packet, lanes), (shape, quads), (tile, samples));
+        let covered = small.cover_lines(s, lines, (shape, quads), (tile, samples));
         let mut list = PixelList::default();
         for (sample, number) in (0..N).zip(0..) {
             small.list(s, sample, covered, &mut list);
@@ -112,7 +129,8 @@ fn check<const N: usize>() {
                 y1: 64,
             },
         };
-        let (mut lines, mut packet, mut lane) = (Vec::new(), LinePacket::EMPTY, 0);
+        let (mut lines, mut packet, mut lane) = (Vec::new(), LinePacket::default(), 0);
+        let mut of_packet = LineHalves::default();
         let mut lanes_of_lines = Vec::new();
         while lane < LANES - 1 {
             let mut a = [TILE.x, TILE.y].map(|at| at * 256 - 1024 + random(72 * 256));
@@ -141,7 +159,9 @@ fn check<const N: usize>() {
             };
             let count = lanes_of::<N>(&line, shape, quads);
             for half in 0..count {
-                packet.set(lane + half, &line, (count > 1).then_some(half));
+                packet.set(Lane::new(lane + half), &line);
+                of_packet.any |= u16::from(count > 1) << (lane + half);
+                of_packet.seconds |= u16::from(half == 1) << (lane + half);
             }
             if count > 0 {
                 lines.push(line);
@@ -155,7 +175,7 @@ fn check<const N: usize>() {
             .into_iter()
             .filter(|level| !level.is_scalar())
         {
-            let of_packet = (&packet, lanes);
+            let of_packet = (&packet, lanes, of_packet);
             let (covered, found) = together::<N>(level, of_packet, (shape, quads), &rect);
             for ((lanes, line), expected) in lanes_of_lines.iter().zip(&lines).zip(&expected) {
                 let is_covered = lanes.clone().map(|lane| covered >> lane & 1 == 1);

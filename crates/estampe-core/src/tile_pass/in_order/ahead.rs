@@ -13,21 +13,27 @@
 //! while those before are drawn, were no faster than sixteen.
 
 use crate::bounds::bins::BinEntry;
-use crate::bounds::primitives::{LinePrimitive, PackedTriangle, VertexRef};
+use crate::bounds::lines::LinePacket;
+use crate::bounds::primitives::{PackedTriangle, VertexRef};
 use crate::fragment::interpolate::VaryingSource;
 use crate::tile_pass::TilePass;
 use crate::tile_pass::upcoming_runs::{UpcomingRun, UpcomingRuns};
-use estampe_simd::{LANES, Lane, Lanes, Level, dispatch};
+use estampe_simd::{LANES, Lane, Lanes, Level, Select, SimdBase, bits_of, dispatch, u32x16};
+
+/// Primitives that are prefetched before they are drawn.
+const PRIMITIVES: usize = 3 * LANES;
+/// Of these, the primitives whose varyings are prefetched.
+const VARYINGS: usize = 2 * LANES;
 
 /// The primitives of a tile that come next, of those that are drawn in order.
 #[derive(Debug)]
 pub(in crate::tile_pass) struct Ahead<'a> {
-    /// Those that are prefetched next.
     primitives: Upcoming<'a>,
-    /// Those whose varyings are prefetched next.
     varyings: Upcoming<'a>,
-    /// How many may be drawn until more are prefetched; `None` before the first one.
-    ready: Option<usize>,
+    /// How many were drawn, or are drawn now.
+    drawn: usize,
+    /// How many may be drawn until more are prefetched.
+    ready: usize,
 }
 
 impl<'a> Ahead<'a> {
@@ -38,61 +44,84 @@ impl<'a> Ahead<'a> {
             run: None,
             lanes: 0,
             packet: 0,
+            taken: 0,
         };
         Self {
             primitives: all.clone(),
             varyings: all,
-            ready: None,
+            drawn: 0,
+            ready: 0,
         }
     }
 
-    /// Notes that one more primitive is drawn next, and prefetches others if it is time.
+    /// Notes that so many more primitives are drawn next, and prefetches others if it is time.
     #[inline(always)]
-    pub(super) fn step(&mut self, level: Level) {
-        let ready = match self.ready {
-            Some(ready @ 1..) => ready,
-            Some(0) => {
-                self.prefetch(level, [1, 1]);
-                LANES
-            }
-            None => {
-                self.prefetch(level, [3, 2]);
-                LANES
-            }
-        };
-        self.ready = Some(ready - 1);
+    pub(super) fn step(&mut self, level: Level, primitives: usize) {
+        if self.drawn >= self.ready {
+            self.prefetch(level);
+            self.ready = self.drawn + LANES;
+        }
+        self.drawn += primitives;
     }
 
-    /// Prefetches so many times sixteen primitives, and so many times the varyings of sixteen.
     #[inline(never)]
-    fn prefetch(&mut self, level: Level, counts: [usize; 2]) {
-        dispatch!(level, s => self.prefetch_lanes(s, counts));
+    fn prefetch(&mut self, level: Level) {
+        dispatch!(level, s => self.prefetch_lanes(s));
     }
 
     #[inline(always)]
-    fn prefetch_lanes<S: Lanes>(&mut self, s: S, [primitives, varyings]: [usize; 2]) {
-        for _ in 0..primitives * LANES {
+    fn prefetch_lanes<S: Lanes>(&mut self, s: S) {
+        while self.primitives.taken < self.drawn + PRIMITIVES {
             match self.primitives.next() {
                 Some((Primitive::Triangle(triangle), _)) => s.prefetch(triangle),
-                Some((Primitive::Line(line), _)) => s.prefetch(line),
+                Some((Primitive::Lines(packet, _), _)) => prefetch_lines(s, packet),
                 None => break,
             }
         }
-        for _ in 0..varyings * LANES {
+        while self.varyings.taken < self.drawn + VARYINGS {
             match self.varyings.next() {
                 Some((Primitive::Triangle(triangle), source)) => {
                     for vertex in triangle.vertex {
                         prefetch_varyings(s, &source, vertex);
                     }
                 }
-                Some((Primitive::Line(line), source)) => {
-                    for end in &line.ends {
-                        prefetch_varyings(s, &source, end.vertex);
-                    }
+                Some((Primitive::Lines(packet, lanes), source)) => {
+                    prefetch_varyings_of_lines(s, &source, packet, lanes);
                 }
                 None => break,
             }
         }
+    }
+}
+
+/// Prefetches what is read of a packet of lines: flat varyings and patterns are rare.
+#[inline(always)]
+fn prefetch_lines<S: Lanes>(s: S, packet: &LinePacket) {
+    s.prefetch(&packet.x);
+    s.prefetch(&packet.y);
+    s.prefetch(&packet.z);
+    s.prefetch(&packet.iw);
+    s.prefetch(&packet.vertex);
+    s.prefetch(&packet.front);
+}
+
+/// Prefetches the varyings of a packet's lines in some lanes.
+#[inline(always)]
+fn prefetch_varyings_of_lines<S: Lanes>(
+    s: S,
+    source: &VaryingSource<'_>,
+    packet: &LinePacket,
+    lanes: u16,
+) {
+    let scalars = u32::try_from(source.modes.len()).unwrap_or(0);
+    let scalars = <u32x16<S> as SimdBase<S>>::splat(s, scalars);
+    let is_in = s.mask_from_bits(lanes);
+    let first = Lane::first_of(lanes).unwrap_or(Lane::new(0));
+    for vertices in &packet.vertex {
+        let one = <u32x16<S> as SimdBase<S>>::splat(s, first.of(vertices).0);
+        let vertices = u32x16::load_array(s, vertices.map(|VertexRef(vertex)| vertex));
+        let vertices = is_in.select(vertices, one);
+        s.prefetch_elements(bits_of(source.shaded), vertices * scalars);
     }
 }
 
@@ -105,10 +134,11 @@ fn prefetch_varyings<S: Lanes>(s: S, source: &VaryingSource<'_>, vertex: VertexR
     }
 }
 
-/// A primitive that is prefetched.
+/// Primitives that are prefetched together.
 enum Primitive<'a> {
     Triangle(&'a PackedTriangle),
-    Line(&'a LinePrimitive),
+    /// Those lines of a packet whose lanes are in the mask.
+    Lines(&'a LinePacket, u16),
 }
 
 /// A tile's primitives from one on.
@@ -119,10 +149,12 @@ struct Upcoming<'a> {
     /// The triangles that are left of the packet at hand.
     lanes: u16,
     packet: u32,
+    /// How many primitives were taken.
+    taken: usize,
 }
 
 impl<'a> Upcoming<'a> {
-    /// The next triangle or line; points are left out.
+    /// The next triangle, or the next lines; points are left out.
     #[inline(always)]
     fn next(&mut self) -> Option<(Primitive<'a>, VaryingSource<'a>)> {
         while self.lanes == 0 {
@@ -136,15 +168,17 @@ impl<'a> Upcoming<'a> {
                 BinEntry::Triangles { packet, lanes } => {
                     (self.packet, self.lanes) = (packet, lanes);
                 }
-                BinEntry::Line(number) => {
-                    let line = &run.chunk.lines[number as usize];
-                    return Some((Primitive::Line(line), run.source));
+                BinEntry::Lines { packet, lanes } => {
+                    self.taken += entry.count() as usize;
+                    let packet = &run.chunk.lines[packet as usize];
+                    return Some((Primitive::Lines(packet, lanes), run.source));
                 }
                 BinEntry::Point(_) => {}
             }
         }
         let lane = Lane::all_of(self.lanes).next()?;
         self.lanes &= self.lanes - 1;
+        self.taken += 1;
         let run = self.run.as_ref()?;
         let triangle = &run.chunk.taken_apart(self.packet)[lane.get()];
         Some((Primitive::Triangle(triangle), run.source))

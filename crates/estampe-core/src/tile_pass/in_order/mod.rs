@@ -43,7 +43,8 @@ mod tests;
 use super::fragments::Fragments;
 use super::{HIZ_PACKETS, TileJob, TilePass, TileScratch, TileWork};
 use crate::bounds::bins::BinEntry;
-use crate::bounds::primitives::{LinePrimitive, PackedTriangle, PointPrimitive, Triangle};
+use crate::bounds::lines::LinePrimitive;
+use crate::bounds::primitives::{PackedTriangle, PointPrimitive, Triangle};
 use crate::fragment::interpolate::{
     DepthPlane, LineInterpolant, LineOrPoint, PointInterpolant, TriangleInterpolant, VaryingPlanes,
     VaryingSource, set_planes,
@@ -153,7 +154,7 @@ pub(super) fn draw<const N: usize>(
                 let pairs = work.chunk.rectangles(packet);
                 rectangles += u64::from((pairs & lanes).count_ones());
                 for lane in Lane::all_of(lanes) {
-                    drawing.step();
+                    drawing.step(1);
                     let next = (lane.get() + 1) % LANES;
                     let second = lane.is_in(pairs).then(|| &triangles[next]);
                     let triangle = &triangles[lane.get()];
@@ -163,9 +164,9 @@ pub(super) fn draw<const N: usize>(
                     }
                 }
             }
-            BinEntry::Line(number) => {
-                drawing.step();
-                drawing.add_line(&mut lines, &work.chunk.lines[number as usize]);
+            BinEntry::Lines { packet, lanes } => {
+                drawing.step(entry.count() as usize);
+                drawing.add_lines(&mut lines, &work.chunk.lines[packet as usize], lanes);
             }
             BinEntry::Point(number) => drawing.point(&work.chunk.points[number as usize]),
         }
@@ -465,23 +466,23 @@ impl<'a, const N: usize> InOrder<'a, '_, '_, '_, N> {
         (classes.hidden != u16::MAX).then_some(classes)
     }
 
-    /// Notes that one more primitive is drawn next.
+    /// Notes that so many more primitives are drawn next.
     #[inline(always)]
-    fn step(&mut self) {
+    fn step(&mut self, primitives: usize) {
         if let Some(ahead) = &mut self.ahead {
-            ahead.step(self.work.level);
+            ahead.step(self.work.level, primitives);
         }
     }
 
     /// Draws a line alone. Such lines and points enter the SIMD level one by one: they are few, and
     /// their code is kept out of the loop over triangles.
-    fn line(&mut self, line: &'a LinePrimitive) {
+    fn line(&mut self, line: LinePrimitive) {
         let TileWork { shape, rect, .. } = self.work;
         let list = &mut self.scratch.in_order.list;
         list.clear();
         let style = self.work.plan.line_style;
         if style.plain_rectangle().is_none() {
-            line::cover(line, style, *shape, rect, list);
+            line::cover(&line, style, *shape, rect, list);
         }
         let interpolant = LineInterpolant::new(line, style, self.source);
         if style.is_smooth() {

@@ -16,7 +16,8 @@
 
 use super::InOrder;
 use super::listed::ListedValues;
-use crate::bounds::primitives::{LinePacket, PackedTriangle, TrianglePacket};
+use crate::bounds::lines::LinePacket;
+use crate::bounds::primitives::{PackedTriangle, TrianglePacket};
 use crate::fragment::cross_line::CrossLines;
 use crate::fragment::cross_triangle::{CrossPlanes, Row};
 use crate::fragment::interpolate::VaryingSource;
@@ -147,7 +148,7 @@ impl<const N: usize> Default for SmallScratch<N> {
             parts: Parts::WHOLE,
             small: SmallBoxes::default(),
             planes: CrossPlanes::default(),
-            lines: LinePacket::EMPTY,
+            lines: LinePacket::default(),
             cross_lines: CrossLines::default(),
             listed: PixelList::default(),
         }
