@@ -39,7 +39,14 @@ impl<'a> VaryingSource<'a> {
         if let Some(found) = self.four_of_shaded(s, vertices, at) {
             return found;
         }
-        let vertices = vertices.to_array();
+        let rows = self.rows_of(&vertices.to_array(), at);
+        components_of_f32(s, &rows.each_ref())
+    }
+
+    /// Four scalars of each vertex by itself. A function of its own: inlined, its addresses are
+    /// computed in any case.
+    #[inline(never)]
+    fn rows_of(&self, vertices: &[u32; LANES], at: usize) -> [[f32; 4]; LANES] {
         let n = self.modes.len();
         // Only the last vertex of a list may have fewer than four scalars from there on.
         let (mut end, mut clipped_end) = ([0.0; 4], [0.0; 4]);
@@ -52,18 +59,18 @@ impl<'a> VaryingSource<'a> {
                 end[..3].copy_from_slice(last);
             }
         }
-        let mut rows = [&end; LANES];
+        let mut rows = [end; LANES];
         for (row, vertex) in rows.iter_mut().zip(vertices) {
             let (from, end) = if vertex & VertexRef::CLIPPED == 0 {
-                (self.shaded, &end)
+                (self.shaded, end)
             } else {
-                (self.clipped, &clipped_end)
+                (self.clipped, clipped_end)
             };
             let first = (vertex & !VertexRef::CLIPPED) as usize * n + at;
             let found = from.get(first..).and_then(<[f32]>::first_chunk);
-            *row = found.unwrap_or(end);
+            *row = *found.unwrap_or(&end);
         }
-        components_of_f32(s, &rows)
+        rows
     }
 
     /// [`VaryingSource::four_of`], if clipping made none of the vertices and each has four scalars,
