@@ -426,7 +426,7 @@ impl Context {
         };
         let words = TileWords::of(target, discards);
         let mut jobs = recycled(std::mem::take(&mut memory.lists.tile_jobs));
-        tile_jobs(target, &mut jobs);
+        tile_jobs(target, is_last && !discards.depth_stencil, &mut jobs);
         // A pass that a program's panic ended has left what it knew.
         let mut lost = Statistics::default();
         end_pass(&mut memory.tiles_1, &mut lost);
@@ -466,8 +466,9 @@ impl Context {
     }
 }
 
-/// Cuts a target into its tiles' slices.
-fn tile_jobs<'a>(target: &'a mut RenderTarget, jobs: &mut Vec<TileJob<'a>>) {
+/// Cuts a target into its tiles' slices; `keeps_depths` says that they are drawn last, and that
+/// their depths are kept.
+fn tile_jobs<'a>(target: &'a mut RenderTarget, keeps_depths: bool, jobs: &mut Vec<TileJob<'a>>) {
     let grid = target.grid();
     let elements = grid.tile_pixels() * target.samples() as usize;
     jobs.extend((0u32..).take(grid.tiles()).map(|tile| TileJob {
@@ -499,13 +500,15 @@ fn tile_jobs<'a>(target: &'a mut RenderTarget, jobs: &mut Vec<TileJob<'a>>) {
     let Some(texels) = &mut target.depth_stencil else {
         return;
     };
-    let stencil = texels.stencil.chunks_exact_mut(elements);
-    for (job, slice) in jobs.iter_mut().zip(stencil) {
+    let (depth, stencil, bounds) = texels.tiles_mut(keeps_depths);
+    for (job, slice) in jobs.iter_mut().zip(stencil.chunks_exact_mut(elements)) {
         job.stencil = slice.as_chunks_mut().0;
     }
-    let depth = Arc::make_mut(&mut texels.depth);
     for (job, slice) in jobs.iter_mut().zip(depth.chunks_exact_mut(elements)) {
         job.depth = slice.as_chunks_mut().0;
+    }
+    for (job, of_tile) in jobs.iter_mut().zip(bounds.into_iter().flatten()) {
+        job.depth_bounds = Some(of_tile);
     }
 }
 

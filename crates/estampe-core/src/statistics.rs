@@ -120,6 +120,9 @@ pub struct Statistics {
     /// Colour attachments of tiles that were stored to images in row order when the tile was drawn.
     #[doc(hidden)]
     pub tiles_to_rows: u64,
+    /// Tiles whose depth bounds, for comparisons with them, were found when the tile was drawn.
+    #[doc(hidden)]
+    pub tiles_bounded: u64,
     /// Tiles of which some attachment was in the memory of a worker alone.
     #[doc(hidden)]
     pub tiles_in_workers: u64,
@@ -192,6 +195,7 @@ impl std::ops::AddAssign for Statistics {
         self.groups_of_geometry += other.groups_of_geometry;
         self.tiles_resolved += other.tiles_resolved;
         self.tiles_to_rows += other.tiles_to_rows;
+        self.tiles_bounded += other.tiles_bounded;
         self.tiles_in_workers += other.tiles_in_workers;
         self.images_given_memory += other.images_given_memory;
         self.blocks_uncleared += other.blocks_uncleared;

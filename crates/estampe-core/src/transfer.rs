@@ -77,6 +77,7 @@ impl Context {
     /// The depths of an image as a texture, without a copy; `None` without depth or with several
     /// samples.
     pub fn shadow_map_of(&self, texels: &mut DepthStencilTexels) -> Option<ShadowMap> {
-        texels.depth_texture(|jobs| self.executor().for_each_alone(jobs, |job| job.run()))
+        let level = self.level();
+        texels.depth_texture(|jobs| self.executor().for_each_alone(jobs, |job| job.run(level)))
     }
 }

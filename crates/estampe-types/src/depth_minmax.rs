@@ -1,7 +1,7 @@
 //! Least and greatest depth of each 4×4 texels of a depth texture.
 //!
-//! In: a row of blocks of 64×64 depths, all in 0..=1, in storage order.\
-//! Out: sixteen rows of words in the format of [`ShadowMap::bounds`].\
+//! In: a block of 64×64 depths, all in 0..=1, in storage order.\
+//! Out: sixteen rows of sixteen words in the format of [`ShadowMap::bounds`].\
 //! Precision: minimum and maximum do not depend on the order of comparisons, so the bits are the
 //! same at every SIMD level.
 
@@ -13,33 +13,30 @@ use estampe_simd::{
 };
 
 /// Packets of 4×4 texels along a side of a block.
-const SIDE: usize = BLOCK / 4;
+pub(crate) const SIDE: usize = BLOCK / 4;
 
-/// Computes the bounds of one row of blocks.
-pub(crate) fn of_blocks(depths: &[f32], bounds: &mut [u32]) {
-    dispatch!(Level::best(), s => wide(s, depths, bounds));
+/// The bounds of a block.
+pub(crate) fn of_block(level: Level, depths: &[f32]) -> [[u32; SIDE]; SIDE] {
+    let mut bounds = [[0; SIDE]; SIDE];
+    dispatch!(level, s => wide(s, depths, &mut bounds));
+    bounds
 }
 
 /// Reduces sixteen packets at a time, a square of four by four. Each step halves the number of
 /// values of each packet, so that after four steps each packet occupies one lane.
 #[inline(always)]
-fn wide<S: Lanes>(simd: S, depths: &[f32], bounds: &mut [u32]) {
-    let stride = bounds.len() / SIDE;
+fn wide<S: Lanes>(simd: S, depths: &[f32], bounds: &mut [[u32; SIDE]; SIDE]) {
     let (packets, _) = depths.as_chunks::<LANES>();
     let (squares, _) = packets.as_chunks::<LANES>();
-    for (index, square) in (0_u32..).zip(squares) {
+    // Sixteen squares make a block; inside it they are in Morton order too.
+    for (square, packets) in (0_u32..).zip(squares.iter().take(LANES)) {
         let mut words = [0; LANES];
-        bounds_of(simd, square).store_array(&mut words);
-        // Sixteen squares make a block; inside it they are in Morton order too.
-        let (block, square) = (index as usize / LANES, index & 0xF);
+        bounds_of(simd, packets).store_array(&mut words);
         let (x, y) = (compact(square) * 4, compact(square >> 1) * 4);
-        for row in 0..4 {
-            let first = (y + row) as usize * stride + block * SIDE + x as usize;
-            if let Some(out) = bounds.get_mut(first..first + 4) {
-                for (column, word) in (0..).zip(out) {
-                    let lane = spread(column) | spread(row) << 1;
-                    *word = words[lane as usize].cast_unsigned();
-                }
+        for (row, out) in (0..4).zip(&mut bounds[y as usize..]) {
+            for (column, word) in (0..4).zip(&mut out[x as usize..]) {
+                let lane = spread(column) | spread(row) << 1;
+                *word = words[lane as usize].cast_unsigned();
             }
         }
     }

@@ -1,50 +1,205 @@
 //! A depth attachment as a texture: the same memory, and the bounds of its packets beside it.
+//!
+//! Once a texture was taken of an attachment, its next passes find the bounds of each tile while
+//! its depths are in the cache: afterwards, they would come from memory once more.
 
 use super::texels::DepthStencilTexels;
 use crate::layout::BLOCK;
-use estampe_types::ShadowMap;
+use estampe_simd::Level;
+use estampe_types::{Lines, ShadowMap};
 use std::sync::Arc;
 
-/// A row of blocks whose bounds one worker finds.
+/// The bounds of an image's packets.
+#[derive(Debug, Clone, Default)]
+pub(super) struct DepthBounds {
+    /// Shared with depth textures; memory that is used again when these are gone.
+    words: Arc<Vec<u32>>,
+    /// True if a depth texture was taken of the image.
+    are_wanted: bool,
+    /// True if they are those of the depths that the image holds.
+    are_current: bool,
+}
+
+/// The bounds of one tile's packets, in an image's bounds.
+#[derive(Debug, Default)]
+pub(crate) struct TileBounds<'a> {
+    rows: Vec<&'a mut [u32]>,
+}
+
+impl TileBounds<'_> {
+    /// Finds the bounds of the tile's depths.
+    pub(crate) fn find(&mut self, level: Level, depths: &[f32]) {
+        for (row, of_row) in self
+            .rows
+            .iter_mut()
+            .zip(ShadowMap::bounds_of_block(level, depths))
+        {
+            row.copy_from_slice(&of_row);
+        }
+    }
+}
+
+/// A tile whose bounds a worker finds.
 #[derive(Debug)]
 pub(crate) struct BoundsJob<'a> {
     depths: &'a [f32],
-    bounds: &'a mut [u32],
+    bounds: TileBounds<'a>,
 }
 
 impl BoundsJob<'_> {
     /// Finds the bounds.
-    pub(crate) fn run(&mut self) {
-        ShadowMap::bound(self.depths, self.bounds);
+    pub(crate) fn run(&mut self, level: Level) {
+        self.bounds.find(level, self.depths);
+    }
+}
+
+impl DepthBounds {
+    /// The bounds of each tile of an image of one sample, in the order of tiles, to be written.
+    fn tiles(&mut self, [width, height]: [u32; 2]) -> impl Iterator<Item = TileBounds<'_>> {
+        if Arc::get_mut(&mut self.words).is_none() {
+            self.words = Arc::default();
+        }
+        // Not shared, as was just seen to.
+        let words = Arc::make_mut(&mut self.words);
+        words.resize(ShadowMap::bounds_len(width, height), 0);
+        let (stride, side) = (ShadowMap::bounds_stride(width), BLOCK as usize / 4);
+        words.chunks_exact_mut(stride * side).flat_map(move |band| {
+            let mut left: Vec<_> = band.chunks_exact_mut(side).map(Some).collect();
+            let columns = stride / side;
+            (0..columns).map(move |column| {
+                let rows = left[column..].iter_mut().step_by(columns);
+                TileBounds {
+                    rows: rows.filter_map(Option::take).collect(),
+                }
+            })
+        })
     }
 }
 
 impl DepthStencilTexels {
-    /// The depths as a texture, its bounds found by `run_all`; `None` without depth or
-    /// with several samples.
+    /// The depths, to be changed.
+    pub(crate) fn depths_mut(&mut self) -> &mut Lines<f32> {
+        self.bounds.are_current = false;
+        Arc::make_mut(&mut self.depth)
+    }
+
+    /// The depths and stencil values for the last tiles of a pass, and the tiles' bounds, if these
+    /// are to be found with them; the bounds are then taken to be found.
+    pub(crate) fn tiles_mut(
+        &mut self,
+        keeps_depths: bool,
+    ) -> (
+        &mut Lines<f32>,
+        &mut Lines<u8>,
+        Option<impl Iterator<Item = TileBounds<'_>>>,
+    ) {
+        let finds = keeps_depths && self.bounds.are_wanted && self.has_texture();
+        self.bounds.are_current = finds;
+        let size = [self.size.width, self.size.height];
+        let bounds = finds.then(|| self.bounds.tiles(size));
+        (Arc::make_mut(&mut self.depth), &mut self.stencil, bounds)
+    }
+
+    /// Returns true if there are depths, of one sample.
+    fn has_texture(&self) -> bool {
+        !self.depth.is_empty() && self.size.samples == 1
+    }
+
+    /// The depths as a texture, its bounds found by `run_all`, unless the last pass has found them;
+    /// `None` without depth or with several samples.
     pub(crate) fn depth_texture(
         &mut self,
         run_all: impl FnOnce(&mut [BoundsJob<'_>]),
     ) -> Option<ShadowMap> {
-        if self.depth.is_empty() || self.size.samples != 1 {
+        if !self.has_texture() {
             return None;
         }
         let (width, height) = (self.size.width, self.size.height);
-        if Arc::get_mut(&mut self.depth_bounds).is_none() {
-            self.depth_bounds = Arc::default();
+        if !self.bounds.are_current {
+            let tiles = self.depth.chunks_exact((BLOCK * BLOCK) as usize);
+            let bounds = self.bounds.tiles([width, height]);
+            let jobs = tiles.zip(bounds);
+            let mut jobs: Vec<BoundsJob<'_>> = jobs
+                .map(|(depths, bounds)| BoundsJob { depths, bounds })
+                .collect();
+            run_all(&mut jobs);
+            self.bounds.are_current = true;
         }
-        // Not shared, as was just seen to.
-        let bounds = Arc::make_mut(&mut self.depth_bounds);
-        bounds.resize(ShadowMap::bounds_len(width, height), 0);
-        let stride = ShadowMap::bounds_stride(width);
-        let block = BLOCK as usize;
-        let rows = self.depth.chunks_exact(stride * 4 * block);
-        let mut jobs: Vec<BoundsJob<'_>> = rows
-            .zip(bounds.chunks_exact_mut(stride * (block / 4)))
-            .map(|(depths, bounds)| BoundsJob { depths, bounds })
-            .collect();
-        run_all(&mut jobs);
-        let shared = (Arc::clone(&self.depth), Arc::clone(&self.depth_bounds));
+        self.bounds.are_wanted = true;
+        let shared = (Arc::clone(&self.depth), Arc::clone(&self.bounds.words));
         Some(ShadowMap::from_storage((width, height), shared.0, shared.1))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::attachment::ImageSize;
+    use estampe_types::TextureFormat;
+
+    /// Tile by tile at any level, the bounds hold the depths of their packets, and as tightly as
+    /// they can.
+    #[test]
+    fn bounds_of_tiles_are_those_of_their_depths() {
+        for (width, height) in [(1, 1), (64, 64), (70, 130), (200, 64)] {
+            let size = ImageSize {
+                width,
+                height,
+                samples: 1,
+            };
+            let mut texels = DepthStencilTexels::zeros(TextureFormat::Depth32Float, size).unwrap();
+            let mut number = 1u32;
+            for depth in texels.depths_mut().iter_mut() {
+                number = number.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+                *depth = (number >> 8) as f32 / 16_777_216.0;
+            }
+            for level in Level::all_available() {
+                let jobs =
+                    |jobs: &mut [BoundsJob<'_>]| jobs.iter_mut().for_each(|job| job.run(level));
+                texels.bounds.are_current = false;
+                let map = texels.depth_texture(jobs).unwrap();
+                let stride = ShadowMap::bounds_stride(width);
+                for y in 0..height {
+                    for x in 0..width {
+                        let word = map.bounds()[(y / 4) as usize * stride + (x / 4) as usize];
+                        let scaled = map.texel(x, y) * ShadowMap::BOUND_SCALE;
+                        let [low, high] = [word & 0xFFFF, word >> 16].map(|bound| bound as f32);
+                        assert!(low <= scaled && scaled <= high, "{level:?} {x} {y}");
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn passes_find_bounds_once_a_texture_was_taken() {
+        let size = ImageSize {
+            width: 130,
+            height: 70,
+            samples: 1,
+        };
+        let mut texels = DepthStencilTexels::zeros(TextureFormat::Depth32Float, size).unwrap();
+        assert!(texels.tiles_mut(true).2.is_none(), "no texture was taken");
+        let run = |jobs: &mut [BoundsJob<'_>]| {
+            jobs.iter_mut().for_each(|job| job.run(Level::best()));
+            assert_eq!(jobs.len(), 6);
+        };
+        assert!(texels.depth_texture(run).is_some());
+        let (depths, _, bounds) = texels.tiles_mut(true);
+        depths.fill(0.5);
+        let tiles = depths.chunks_exact(64 * 64).zip(bounds.unwrap());
+        tiles.for_each(|(depths, mut bounds)| bounds.find(Level::best(), depths));
+        let map = texels.depth_texture(|_| panic!("they are found")).unwrap();
+        let half = 0x4000_4000;
+        assert!(
+            map.bounds()[..map.bounds().len() - 1]
+                .iter()
+                .all(|word| *word == half)
+        );
+        assert!(
+            texels.tiles_mut(false).2.is_none(),
+            "depths that are not kept"
+        );
+        assert!(!texels.bounds.are_current);
     }
 }

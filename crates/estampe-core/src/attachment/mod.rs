@@ -26,6 +26,7 @@ mod target;
 mod texels;
 mod tile_rows;
 
+pub(crate) use depth_texture::TileBounds;
 pub use resolve_depth::ResolveMode;
 pub use row_order::row_order_words;
 pub use target::{ColorResolve, ColorRows, RenderTarget, TargetShape};

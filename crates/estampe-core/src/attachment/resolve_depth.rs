@@ -4,7 +4,6 @@
 use super::texels::DepthStencilTexels;
 use crate::depth_format::DepthFormat;
 use estampe_simd::LANES;
-use std::sync::Arc;
 
 /// The value of a pixel's samples.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
@@ -49,10 +48,9 @@ impl<'a> ResolveDepthJob<'a> {
         let count = from.size.stored_samples() / samples / LANES / JOB_PACKETS;
         let mut depth = from.depth.as_chunks().0.chunks(JOB_PACKETS * samples);
         let mut stencil = from.stencil.as_chunks().0.chunks(JOB_PACKETS * samples);
-        let to_depth = Arc::make_mut(&mut into.depth).as_chunks_mut().0;
-        let mut to_depth = to_depth.chunks_mut(JOB_PACKETS);
-        let to_stencil = into.stencil.as_chunks_mut().0;
-        let mut to_stencil = to_stencil.chunks_mut(JOB_PACKETS);
+        let (to_depth, to_stencil, _) = into.tiles_mut(false);
+        let mut to_depth = to_depth.as_chunks_mut().0.chunks_mut(JOB_PACKETS);
+        let mut to_stencil = to_stencil.as_chunks_mut().0.chunks_mut(JOB_PACKETS);
         let jobs = (0..count).map(|_| Self {
             from: depth.next().unwrap_or_default(),
             into: to_depth.next().unwrap_or_default(),
@@ -133,8 +131,9 @@ mod tests {
         let mut from = DepthStencilTexels::zeros(format, size(4)).unwrap();
         let fixed = from.depth_format();
         let depths = [0.5, 0.25, 1.0, 0.75].map(|depth| fixed.stored(depth));
-        for (packet, stencil) in from.stencil.chunks_exact_mut(LANES * 4).enumerate() {
-            let depth = &mut Arc::make_mut(&mut from.depth)[packet * LANES * 4..][..LANES * 4];
+        let (stored, stencils, _) = from.tiles_mut(false);
+        for (packet, stencil) in stencils.chunks_exact_mut(LANES * 4).enumerate() {
+            let depth = &mut stored[packet * LANES * 4..][..LANES * 4];
             for sample in 0..4 {
                 depth[sample * LANES..][..LANES].fill(depths[sample]);
                 stencil[sample * LANES..][..LANES].fill([7, 9, 3, 5][sample]);

@@ -1,5 +1,6 @@
 //! The texels of one image as attachments store them: one mip level of one layer of a texture.
 
+use super::depth_texture::DepthBounds;
 use crate::depth_format::DepthFormat;
 use crate::layout::{TileGrid, texel_words};
 use estampe_types::{Lines, TextureFormat};
@@ -99,12 +100,12 @@ pub struct DepthStencilTexels {
     pub(super) format: TextureFormat,
     pub(super) size: ImageSize,
     /// One element per sample; empty without depth. Shared with the depth textures that were taken
-    /// of it; drawing while one lives draws into a copy.
-    pub(crate) depth: Arc<Lines<f32>>,
+    /// of it; drawing while one lives draws into a copy. What changes it goes through
+    /// [`DepthStencilTexels::depths_mut`] or [`DepthStencilTexels::tiles_mut`].
+    pub(super) depth: Arc<Lines<f32>>,
     /// One byte per sample; empty without stencil.
     pub(crate) stencil: Lines<u8>,
-    /// Memory of the last depth texture's bounds, used again when that is gone.
-    pub(super) depth_bounds: Arc<Vec<u32>>,
+    pub(super) bounds: DepthBounds,
 }
 
 impl DepthStencilTexels {
@@ -119,7 +120,7 @@ impl DepthStencilTexels {
             size,
             depth: Arc::new(Lines::zeros(depth)?),
             stencil: Lines::zeros(stencil)?,
-            depth_bounds: Arc::default(),
+            bounds: DepthBounds::default(),
         })
     }
 
@@ -156,7 +157,7 @@ impl DepthStencilTexels {
     /// Replaces depths and stencil values by those of an image of the same size and format.
     pub fn copy_from(&mut self, from: &Self) {
         debug_assert_eq!((from.format, from.size), (self.format, self.size));
-        Arc::make_mut(&mut self.depth).copy_from_slice(&from.depth);
+        self.depths_mut().copy_from_slice(&from.depth);
         self.stencil.copy_from_slice(&from.stencil);
     }
 

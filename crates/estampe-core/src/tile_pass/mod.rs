@@ -17,8 +17,8 @@ mod worker_tile;
 pub(crate) use clear::Clear;
 pub(crate) use worker_tile::TileWords;
 
-use crate::attachment::TileRows;
 use crate::attachment::resolve::ResolveJob;
+use crate::attachment::{TileBounds, TileRows};
 use crate::bounds::bins::BinEntry;
 use crate::bounds::chunk::{Chunk, ChunkIndex};
 use crate::bounds::pixel_rect::PixelRect;
@@ -96,6 +96,8 @@ pub(crate) struct TileJob<'a> {
     pub(crate) resolved: [&'a mut [u32]; MAX_TARGETS],
     /// The images in row order that colours are stored to when the tile is drawn.
     pub(crate) rows: Vec<TileRows<'a>>,
+    /// The bounds of depths that are found when the tile is drawn.
+    pub(crate) depth_bounds: Option<TileBounds<'a>>,
     /// The tile that the worker draws next.
     pub(crate) next: NextTile<'a>,
 }
@@ -110,6 +112,7 @@ impl TileJob<'_> {
             stencil: self.stencil,
             resolved: self.resolved.each_mut().map(|image| &mut **image),
             rows: std::mem::take(&mut self.rows),
+            depth_bounds: self.depth_bounds.take(),
             next,
         }
     }
@@ -190,6 +193,10 @@ fn draw_into<const N: usize>(
     for rows in &mut job.rows {
         rows.store(pass.level, job.colors[rows.color].as_flattened());
         scratch.statistics.tiles_to_rows += 1;
+    }
+    if let Some(bounds) = &mut job.depth_bounds {
+        bounds.find(pass.level, job.depth.as_flattened());
+        scratch.statistics.tiles_bounded += 1;
     }
 }
 

@@ -13,6 +13,7 @@ pub use view::{TexelViewDescriptor, TextureAspect, ViewDimension};
 use crate::format::TextureFormat;
 use crate::morton::spread;
 use crate::{Lines, depth_minmax};
+use estampe_simd::Level;
 use std::sync::{Arc, LazyLock};
 
 /// A texture with its mip levels; immutable and shared by reference.
@@ -105,9 +106,13 @@ impl ShadowMap {
         }
         let mut bounds = vec![0; Self::bounds_len(width, height)];
         let stride = Self::bounds_stride(width);
-        for (row, depths) in depths.chunks(blocks[0] * BLOCK * BLOCK).enumerate() {
-            let first = row * stride * (BLOCK / 4);
-            Self::bound(depths, &mut bounds[first..][..stride * (BLOCK / 4)]);
+        for (block, depths) in depths.chunks_exact(BLOCK * BLOCK).enumerate() {
+            let (x, y) = (block % blocks[0], block / blocks[0]);
+            let first = y * stride * (BLOCK / 4) + x * (BLOCK / 4);
+            let rows = bounds[first..].chunks_mut(stride);
+            for (row, of_row) in rows.zip(Self::bounds_of_block(Level::best(), depths)) {
+                row[..BLOCK / 4].copy_from_slice(&of_row);
+            }
         }
         Self::from_storage(
             (width, height),
@@ -193,9 +198,10 @@ impl ShadowMap {
         Self::bounds_stride(width) * ((height as usize).next_multiple_of(BLOCK) / 4) + 1
     }
 
-    /// Computes the bounds of one row of storage blocks: sixteen rows of words.
-    pub fn bound(depths: &[f32], bounds: &mut [u32]) {
-        depth_minmax::of_blocks(depths, bounds);
+    /// Computes the bounds of one storage block: sixteen rows of words.
+    #[must_use]
+    pub fn bounds_of_block(level: Level, depths: &[f32]) -> [[u32; BLOCK / 4]; BLOCK / 4] {
+        depth_minmax::of_block(level, depths)
     }
 }
 
