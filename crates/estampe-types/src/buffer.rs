@@ -1,17 +1,47 @@
 //! Buffers: immutable memory that a draw reads, for vertices, indices, uniforms and storage.
 
+use crate::IndexFormat;
 use estampe_simd::advise_huge_pages;
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, PoisonError};
 
 /// An immutable buffer, shared by reference. The bytes are kept as little-endian 32-bit words, so
 /// that lanes can gather them.
 #[derive(Clone, Default)]
 pub struct BufferData {
-    // A vector, not `Arc<[u32]>`: a vector that several threads filled need not be copied.
-    words: Arc<Vec<u32>>,
+    memory: Arc<Memory>,
     /// The first word that belongs to the buffer.
     first_word: usize,
     len_bytes: usize,
+}
+
+/// The memory of buffers.
+#[derive(Default)]
+struct Memory {
+    // A vector, not a slice: a vector that several threads filled need not be copied.
+    words: Vec<u32>,
+    /// What was found of the words, until they change.
+    extremes: Mutex<Vec<(IndexRange, [u32; 2])>>,
+}
+
+/// A range of indices: the buffer's first word, format, first and count.
+type IndexRange = (usize, IndexFormat, [u32; 2]);
+
+/// Ranges of indices that are remembered of a buffer's memory.
+const KNOWN: usize = 16;
+
+impl From<Vec<u32>> for Memory {
+    fn from(words: Vec<u32>) -> Self {
+        Self {
+            words,
+            extremes: Mutex::default(),
+        }
+    }
+}
+
+impl Clone for Memory {
+    fn clone(&self) -> Self {
+        self.words.clone().into()
+    }
 }
 
 impl BufferData {
@@ -24,7 +54,7 @@ impl BufferData {
         advise_huge_pages(words.spare_capacity_mut());
         words.resize(count, 0);
         Some(Self {
-            words: Arc::new(words),
+            memory: Arc::new(words.into()),
             first_word: 0,
             len_bytes,
         })
@@ -36,7 +66,7 @@ impl BufferData {
     pub fn slice(&self, first_byte: usize, len_bytes: usize) -> Self {
         let first_byte = first_byte.min(self.len_bytes) & !3;
         Self {
-            words: Arc::clone(&self.words),
+            memory: Arc::clone(&self.memory),
             first_word: self.first_word + first_byte / 4,
             len_bytes: len_bytes.min(self.len_bytes - first_byte),
         }
@@ -47,7 +77,10 @@ impl BufferData {
     #[must_use]
     pub fn words_mut(&mut self) -> &mut [u32] {
         let count = self.len_bytes.div_ceil(4);
-        &mut Arc::make_mut(&mut self.words)[self.first_word..][..count]
+        let memory = Arc::make_mut(&mut self.memory);
+        let extremes = memory.extremes.get_mut();
+        extremes.unwrap_or_else(PoisonError::into_inner).clear();
+        &mut memory.words[self.first_word..][..count]
     }
 
     /// A buffer with these bytes, or `None` if there is not enough memory.
@@ -63,7 +96,7 @@ impl BufferData {
         advise_huge_pages(words.spare_capacity_mut());
         words.extend(bytes.chunks(4).map(word));
         Some(Self {
-            words: Arc::new(words),
+            memory: Arc::new(words.into()),
             first_word: 0,
             len_bytes: bytes.len(),
         })
@@ -85,7 +118,7 @@ impl BufferData {
         Self {
             len_bytes: words.len() * 4,
             first_word: 0,
-            words: Arc::new(words),
+            memory: Arc::new(words.into()),
         }
     }
 
@@ -105,12 +138,12 @@ impl BufferData {
     pub(crate) fn try_into_words(mut self) -> Result<Vec<u32>, Self> {
         let count = self.len_bytes.div_ceil(4);
         let range = self.first_word..self.first_word + count;
-        match Arc::try_unwrap(self.words) {
-            Ok(words) if range == (0..words.len()) => return Ok(words),
-            Ok(words) => self.words = Arc::new(words),
-            Err(shared) => self.words = shared,
+        match Arc::try_unwrap(self.memory) {
+            Ok(memory) if range == (0..memory.words.len()) => return Ok(memory.words),
+            Ok(memory) => self.memory = Arc::new(memory),
+            Err(shared) => self.memory = shared,
         }
-        try_to_vec(&self.words[range]).ok_or(self)
+        try_to_vec(&self.memory.words[range]).ok_or(self)
     }
 
     /// The length in bytes.
@@ -124,7 +157,36 @@ impl BufferData {
     #[inline]
     pub fn words(&self) -> &[u32] {
         let count = self.len_bytes.div_ceil(4);
-        &self.words[self.first_word..][..count]
+        &self.memory.words[self.first_word..][..count]
+    }
+
+    /// The least and the greatest index of a range (first, count), which `find` gives. They are
+    /// remembered with the contents until these change, as programs draw the same mesh in each pass
+    /// and its indices may be more than the caches hold. `None` is not remembered.
+    pub fn index_extremes(
+        &self,
+        format: IndexFormat,
+        range: [u32; 2],
+        find: impl FnOnce() -> Option<[u32; 2]>,
+    ) -> Option<[u32; 2]> {
+        let key = (self.first_word, format, range);
+        let lock = || {
+            self.memory
+                .extremes
+                .lock()
+                .unwrap_or_else(PoisonError::into_inner)
+        };
+        let known = lock().iter().find(|(known, _)| *known == key).copied();
+        if let Some((_, extremes)) = known {
+            return Some(extremes);
+        }
+        let extremes = find()?;
+        let mut known = lock();
+        if known.len() == KNOWN {
+            known.remove(0);
+        }
+        known.push((key, extremes));
+        Some(extremes)
     }
 
     /// The byte at an offset; zero beyond the end.
@@ -158,5 +220,39 @@ fn try_to_vec(words: &[u32]) -> Option<Vec<u32>> {
 impl std::fmt::Debug for BufferData {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         write!(f, "Buffer({} bytes)", self.len_bytes)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn extremes_are_remembered_until_the_contents_change() {
+        let mut buffer = BufferData::from_words([5, 2, 9, 4]);
+        let find = |buffer: &BufferData, range, found| {
+            buffer.index_extremes(IndexFormat::Uint32, range, || found)
+        };
+        assert_eq!(find(&buffer, [0, 4], None), None);
+        assert_eq!(find(&buffer, [0, 4], Some([2, 9])), Some([2, 9]));
+        assert_eq!(find(&buffer, [0, 4], None), Some([2, 9]));
+        // Other ranges, formats and parts are others.
+        assert_eq!(find(&buffer, [1, 3], None), None);
+        assert_eq!(find(&buffer.slice(4, 12), [0, 4], None), None);
+        let halves = buffer.index_extremes(IndexFormat::Uint16, [0, 4], || None);
+        assert_eq!(halves, None);
+        // A buffer that shares the memory keeps what it knows.
+        let shared = buffer.clone();
+        buffer.words_mut()[0] = 1;
+        assert_eq!(find(&buffer, [0, 4], Some([1, 9])), Some([1, 9]));
+        assert_eq!(find(&shared, [0, 4], None), Some([2, 9]));
+        buffer.words_mut()[0] = 0;
+        assert_eq!(find(&buffer, [0, 4], None), None);
+        // Of many ranges the last ones are remembered.
+        for first in 0..40 {
+            find(&buffer, [first, 1], Some([first; 2]));
+        }
+        assert_eq!(find(&buffer, [39, 1], None), Some([39; 2]));
+        assert_eq!(find(&buffer, [0, 1], None), None);
     }
 }

@@ -1,15 +1,19 @@
 //! The least and the greatest index of a range of an index buffer.
 //!
-//! Programs draw the same mesh many times in a pass: what a range holds is found once. Its indices
-//! are otherwise read for each draw, by one thread while the others wait.
+//! Programs draw the same mesh many times in a pass, and in every pass: what a range holds is found
+//! once, and of large ranges remembered with the buffer. Its indices are otherwise read for each
+//! draw.
 
 use crate::geometry::assembly::raw_index;
 use crate::schedule::Executor;
 use estampe_simd::{LANES, Lanes, Level, SimdBase, dispatch, u32x16};
 use estampe_types::{BufferData, IndexFormat};
 
-/// Ranges that are remembered.
+/// Ranges that are remembered for a pass.
 const KNOWN: usize = 64;
+
+/// Ranges of as many indices are remembered with the buffer: fewer are read as soon as looked up.
+const LARGE: u32 = 4096;
 
 /// A range of indices: the buffer's words by address and number, format, first and count.
 type RangeKey = (usize, usize, IndexFormat, [u32; 2]);
@@ -54,7 +58,13 @@ impl KnownExtremes {
         {
             return Some(*extremes);
         }
-        let extremes = extremes_in_buffer((executor, self.level), buffer, format, range)?;
+        let level = self.level;
+        let read = || extremes_in_buffer((executor, level), buffer, format, range);
+        let extremes = if range[1] >= LARGE {
+            buffer.index_extremes(format, range, read)?
+        } else {
+            read()?
+        };
         *slot = Some((key, extremes));
         #[cfg(test)]
         {
@@ -217,6 +227,24 @@ mod tests {
                 assert_eq!(beyond, None);
             }
         }
+    }
+
+    #[test]
+    fn large_ranges_are_remembered_from_pass_to_pass() {
+        let executor = Executor::alone();
+        let mut words: Vec<u32> = (7..7 + LARGE).rev().collect();
+        let mut buffer = BufferData::from_words(words.clone());
+        let range = [0, LARGE];
+        let of_pass = |buffer: &BufferData| {
+            let mut known = KnownExtremes::new(Level::best());
+            known.in_buffer(&executor, buffer, IndexFormat::Uint32, range)
+        };
+        assert_eq!(of_pass(&buffer), Some([7, 6 + LARGE]));
+        let remembered = buffer.index_extremes(IndexFormat::Uint32, range, || None);
+        assert_eq!(remembered, Some([7, 6 + LARGE]));
+        (words[5], buffer.words_mut()[5]) = (3, 3);
+        assert_eq!(buffer.words(), words);
+        assert_eq!(of_pass(&buffer), Some([3, 6 + LARGE]));
     }
 
     #[test]
