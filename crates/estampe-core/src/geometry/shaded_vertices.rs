@@ -226,7 +226,9 @@ impl SubDrawVertices<'_> {
 
 /// Makes a list at least so long; what it held is overwritten. The list never shrinks, because
 /// zeroing it anew for each batch would cost as much as writing it. Fresh memory comes from the
-/// system as zeros: the threads that shade are then the first to touch it.
+/// system as zeros: the threads that shade are then the first to touch it. Large lists are in huge
+/// pages: tiles read the varyings of a mesh in any order, on more pages than the processor's tables
+/// hold.
 fn grow<T: Clone>(list: &mut Vec<T>, len: usize, zero: T) {
     if list.capacity() < len {
         *list = Vec::new();
