@@ -26,6 +26,10 @@ pub struct Statistics {
     pub primitives_culled: u64,
     /// Primitives that were set up and binned, clipping's pieces counted one by one.
     pub primitives_binned: u64,
+    /// Triangles whose positions were gathered in pairs of words, where the processor is fast at it.
+    /// They depend on the SIMD level.
+    #[doc(hidden)]
+    pub triangles_gathered_in_pairs: u64,
     /// Lines that were set up and binned sixteen at a time.
     #[doc(hidden)]
     pub lines_in_packets: u64,
@@ -154,6 +158,7 @@ impl std::ops::AddAssign for Statistics {
         self.primitives_clipped += other.primitives_clipped;
         self.primitives_culled += other.primitives_culled;
         self.primitives_binned += other.primitives_binned;
+        self.triangles_gathered_in_pairs += other.triangles_gathered_in_pairs;
         self.lines_in_packets += other.lines_in_packets;
         self.fragments_shaded += other.fragments_shaded;
         self.fragments_of_shared_colors += other.fragments_of_shared_colors;

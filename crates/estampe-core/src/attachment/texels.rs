@@ -132,7 +132,7 @@ impl DepthStencilTexels {
             size,
             depth: Arc::default(),
             stencil: Lines::default(),
-            depth_bounds: Arc::default(),
+            bounds: DepthBounds::default(),
         }
     }
 

@@ -77,7 +77,12 @@ pub(super) fn draw<S: Lanes>(
         let visible = submit.clip_in_order(s, &classified, clip);
         submit.set_up(s, visible);
     }
-    setup.chunk.statistics.primitives_culled += u64::from(culled);
+    let statistics = &mut setup.chunk.statistics;
+    statistics.primitives_culled += u64::from(culled);
+    if gathers {
+        let [from, to] = work.primitives;
+        statistics.triangles_gathered_in_pairs += u64::from(to - from);
+    }
 }
 
 /// Assembles the next group, and reads where its vertices are in a window if one is given; none at

@@ -6,7 +6,7 @@ use estampe::{
     BindGroupDescriptor, BindGroupLayoutEntry, BindingResource, BindingType, Bindings,
     ColorAttachment, DepthStencilAttachment, Device, DeviceDescriptor, Draw, FragmentIn,
     FragmentOut, Level, PassExtent, Program, RenderPass, RenderPipelineDescriptor, ShadowMap,
-    Texture, TextureDescriptor, TextureFormat, Vec4, VertexIn, VertexOut,
+    Statistics, Texture, TextureDescriptor, TextureFormat, Vec4, VertexIn, VertexOut,
 };
 use std::sync::{Arc, Mutex};
 
@@ -65,7 +65,7 @@ fn cleared(device: &Device) -> Texture {
     depth
 }
 
-fn draw(device: &Device, depth: &Texture) {
+fn draw(device: &Device, depth: &Texture) -> Statistics {
     let pipeline = device
         .create_render_pipeline(&RenderPipelineDescriptor {
             targets: Vec::new(),
@@ -78,7 +78,7 @@ fn draw(device: &Device, depth: &Texture) {
             draws: &[Draw::new(&pipeline, 0..3)],
             ..RenderPass::default()
         })
-        .unwrap();
+        .unwrap()
 }
 
 /// The shadow map as a shader reads it.
@@ -142,24 +142,32 @@ fn the_shadow_map_holds_the_depths_and_bounds_them() {
         })
         .unwrap();
         let depth = cleared(&device);
-        draw(&device, &depth);
-        let map = bound(&device, &depth);
-        assert_eq!([map.width(), map.height()], SIZE);
-        let depths = f32s(&device.read_texture(&depth).unwrap());
-        assert!(rows(&map) == depths);
-        assert!(depths.iter().filter(|depth| **depth < 1.0).count() > 5000);
-        let stride = ShadowMap::bounds_stride(SIZE[0]);
-        for (index, depth) in depths.iter().enumerate() {
-            let (x, y) = (index % SIZE[0] as usize, index / SIZE[0] as usize);
-            let word = map.bounds()[y / 4 * stride + x / 4];
-            let scaled = depth * ShadowMap::BOUND_SCALE;
-            assert!((word & 0xFFFF) as f32 <= scaled && (word >> 16) as f32 >= scaled);
-        }
-        // The same image from rows; the bounds differ only where packets extend beyond the image.
-        let brought = ShadowMap::from_rows(SIZE[0], SIZE[1], &depths);
-        assert!(rows(&brought) == depths);
-        assert_eq!(brought.bounds()[..32], map.bounds()[..32]);
+        assert_eq!(draw(&device, &depth).tiles_bounded, 0, "no map was taken");
+        check_map(&device, &depth);
+        // The next passes find the bounds of the twelve tiles themselves.
+        assert_eq!(draw(&device, &depth).tiles_bounded, 12);
+        check_map(&device, &depth);
     }
+}
+
+/// The shadow map of a texture holds its depths and bounds them.
+fn check_map(device: &Device, depth: &Texture) {
+    let map = bound(device, depth);
+    assert_eq!([map.width(), map.height()], SIZE);
+    let depths = f32s(&device.read_texture(depth).unwrap());
+    assert!(rows(&map) == depths);
+    assert!(depths.iter().filter(|depth| **depth < 1.0).count() > 5000);
+    let stride = ShadowMap::bounds_stride(SIZE[0]);
+    for (index, depth) in depths.iter().enumerate() {
+        let (x, y) = (index % SIZE[0] as usize, index / SIZE[0] as usize);
+        let word = map.bounds()[y / 4 * stride + x / 4];
+        let scaled = depth * ShadowMap::BOUND_SCALE;
+        assert!((word & 0xFFFF) as f32 <= scaled && (word >> 16) as f32 >= scaled);
+    }
+    // The same image from rows; the bounds differ only where packets extend beyond the image.
+    let brought = ShadowMap::from_rows(SIZE[0], SIZE[1], &depths);
+    assert!(rows(&brought) == depths);
+    assert_eq!(brought.bounds()[..32], map.bounds()[..32]);
 }
 
 /// A second binding of the same depths shares their memory with the first; drawing does not.

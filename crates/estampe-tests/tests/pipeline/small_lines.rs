@@ -9,7 +9,7 @@ use estampe_tests::{Case, CaseDraw, ExpectedPaths, Random, TestShader, check_pat
 use estampe_types::TextureFormat;
 use estampe_types::state::{
     BlendState, CompareFunction, DepthState, LineRasterization, LineState, PolygonMode,
-    PrimitiveTopology, ScissorRect,
+    PrimitiveTopology, ProvokingVertex, ScissorRect,
 };
 
 /// The target's size: two tiles and parts of two others.
@@ -121,7 +121,58 @@ fn pixels_of_small_lines_fill_packets() {
             packets > 100 && fragments > packets * 6,
             "{samples} samples: {fragments} fragments are in {packets} packets"
         );
+        let lines = statistics.lines_in_packets;
+        assert!(lines > 5000, "{lines} lines were set up together");
     }
+}
+
+/// Lists, strips and loops, instances of one line and of many, near the eye and through it, so that
+/// some lanes of a packet are clipped and some lines touch many tiles.
+///
+/// Rows: A1, A3, R3.
+#[test]
+fn lines_are_set_up_together() {
+    let statistics = check_paths(
+        "small_lines/packets",
+        40,
+        ExpectedPaths::default(),
+        |random| {
+            let mut case = Case::new([150, 140], random.pick(&[1, 4]));
+            for _ in 0..3 {
+                let style = random.pick(&[
+                    Style::Small,
+                    Style::Large,
+                    Style::OnGrid,
+                    Style::Huge,
+                    Style::AcrossDepths,
+                    Style::AroundEye,
+                    Style::Hostile,
+                ]);
+                let count = random.pick(&[1, 6, 40]);
+                let vertices = triangles(random, style, case.size, count);
+                let mut draw = CaseDraw::new(shader(random), &vertices);
+                draw.primitive.topology = random.pick(&[
+                    PrimitiveTopology::LineList,
+                    PrimitiveTopology::LineStrip,
+                    PrimitiveTopology::LineLoop,
+                    PrimitiveTopology::LineListAdjacency,
+                ]);
+                draw.primitive.line = line_state(random);
+                draw.instances = 0..random.pick(&[1, 1, 3]);
+                draw.primitive.provoking_vertex =
+                    random.pick(&[ProvokingVertex::First, ProvokingVertex::Last]);
+                draw.blend = random.pick(&[None, Some(BlendState::ALPHA_BLENDING)]);
+                case.draws.push(draw);
+            }
+            case
+        },
+    );
+    let lines = statistics.lines_in_packets;
+    assert!(lines > 1000, "{lines} lines were set up together");
+    assert!(
+        statistics.primitives_clipped > 100,
+        "clipped lines are among them"
+    );
 }
 
 /// The edges of small triangles, with every state: stencils, depths that are written early and

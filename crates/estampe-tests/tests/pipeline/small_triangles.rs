@@ -1,7 +1,8 @@
 //! Many small triangles: listed pixels, fragments that share packets across triangles, and edges
 //! that are set up sixteen at a time.
 
-use estampe::TilePath;
+use estampe::{Level, TilePath};
+use estampe_simd::SquareLoads;
 use estampe_tests::geometry::{Style, Vertex, clip_at, triangles};
 use estampe_tests::mixed_draws::Mixture;
 use estampe_tests::shaders::{Colored, Cutout, FlatColored, Gradients, Halved, Probe, Scalar};
@@ -108,6 +109,27 @@ fn edges_of_a_packets_triangles_are_set_up_together() {
             "no edges were set up sixteen at a time"
         );
     }
+}
+
+/// Positions that are gathered in pairs, whatever a measurement chose for this processor: both ways
+/// give the same bits, so that other tests do not notice.
+///
+/// Rows: A1, A2.
+#[test]
+fn positions_of_triangles_are_gathered_in_pairs() {
+    let levels = Level::all_available();
+    for level in &levels {
+        level.set_square_loads(SquareLoads::Gathers);
+    }
+    let topic = "small_triangles/pairs";
+    let statistics = check_paths(topic, 8, ExpectedPaths::default(), |random| {
+        let mut case = case(random, Colored.into(), [60, 50], 1);
+        let vertices = triangles(random, Style::AroundEye, case.size, 24);
+        case.draws.push(CaseDraw::new(Colored, &vertices));
+        case
+    });
+    let gathers = levels.iter().any(|level| level.name() == "avx512");
+    assert_eq!(statistics.triangles_gathered_in_pairs > 0, gathers);
 }
 
 /// Rows: R1, R6, O3, O4, O5, O9.
