@@ -26,8 +26,8 @@ pub struct Statistics {
     pub primitives_culled: u64,
     /// Primitives that were set up and binned, clipping's pieces counted one by one.
     pub primitives_binned: u64,
-    /// Triangles whose positions were gathered in pairs of words, where the processor is fast at it.
-    /// They depend on the SIMD level.
+    /// Triangles whose positions were gathered in pairs of words, where the processor is fast at
+    /// it. They depend on the SIMD level.
     #[doc(hidden)]
     pub triangles_gathered_in_pairs: u64,
     /// Lines that were set up and binned sixteen at a time.

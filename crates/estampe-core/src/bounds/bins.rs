@@ -72,8 +72,8 @@ impl Bins {
         self.mergeable_from = self.unsorted.len();
     }
 
-    /// Adds an entry for one primitive of a packet to a tile: to the packet's entry for that tile if
-    /// there is one since [`Bins::end_packet`].
+    /// Adds an entry for one primitive of a packet to a tile: to the packet's entry for that tile
+    /// if there is one since [`Bins::end_packet`].
     #[inline(always)]
     pub(crate) fn push_lane(&mut self, tile: u32, new: BinEntry) {
         for (at, entry) in self.unsorted[self.mergeable_from..].iter_mut().rev() {
