@@ -383,6 +383,13 @@ impl Context {
             is_last,
             discards,
         } = attachments;
+        // First of all: where memory is short, no image is taken to be drawn or resolved.
+        let words = TileWords::of(target, discards);
+        match target.samples() {
+            1 if !self.level.is_scalar() => begin_pass(&mut memory.tiles_1, &words),
+            4 if !self.level.is_scalar() => begin_pass(&mut memory.tiles_4, &words),
+            _ => begin_pass(&mut memory.tiles_many, &words),
+        }?;
         let mut resolved = [None; MAX_TARGETS];
         for resolve in target.resolves.iter_mut().filter(|_| is_last) {
             resolved[resolve.color] = Some(resolve.into.format());
@@ -424,7 +431,6 @@ impl Context {
             discards,
             resolved,
         };
-        let words = TileWords::of(target, discards);
         let mut jobs = recycled(std::mem::take(&mut memory.lists.tile_jobs));
         tile_jobs(target, is_last && !discards.depth_stencil, &mut jobs);
         // A pass that a program's panic ended has left what it knew.
@@ -435,21 +441,18 @@ impl Context {
         let mut statistics = Statistics::default();
         match facts.samples {
             1 if !self.level.is_scalar() => {
-                begin_pass(&mut memory.tiles_1, &words)?;
                 executor.for_each_ahead(&mut jobs, &memory.tiles_1, |job, next, scratch| {
                     tile_pass::draw(&pass, job, next, scratch);
                 });
                 end_pass(&mut memory.tiles_1, &mut statistics);
             }
             4 if !self.level.is_scalar() => {
-                begin_pass(&mut memory.tiles_4, &words)?;
                 executor.for_each_ahead(&mut jobs, &memory.tiles_4, |job, next, scratch| {
                     tile_pass::draw(&pass, job, next, scratch);
                 });
                 end_pass(&mut memory.tiles_4, &mut statistics);
             }
             _ => {
-                begin_pass(&mut memory.tiles_many, &words)?;
                 executor.for_each_ahead(&mut jobs, &memory.tiles_many, |job, next, scratch| {
                     tile_pass::draw(&pass, job, next, scratch);
                 });
