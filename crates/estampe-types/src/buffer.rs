@@ -19,7 +19,7 @@ pub struct BufferData {
 struct Memory {
     // A vector, not a slice: a vector that several threads filled need not be copied.
     words: Vec<u32>,
-    /// What was found of the words, until they change.
+    /// The extremes of ranges of indices, until the words change.
     extremes: Mutex<Vec<(IndexRange, [u32; 2])>>,
 }
 

@@ -33,7 +33,7 @@ b0:
   return v5, v6, v7, m10
 ";
 
-/// What a run leaves: the words of two outputs and of a third, and masks.
+/// The results of a run: the words of two outputs and of a third, and masks.
 type Left = ([Vec<Packet<u32>>; 2], Vec<u16>);
 
 /// The parts of three scalars of a packet, of two words, and of a mask.

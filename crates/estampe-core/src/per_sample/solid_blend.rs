@@ -21,7 +21,7 @@ use estampe_simd::{
     Bytes, LANES, Lanes, Level, Packet, Select, SimdBase, SimdFloat, dispatch, f32x16, u32x16,
 };
 
-/// What a colour makes of stored texels.
+/// A colour's effect on stored texels.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct SolidBlend {
     /// By byte of a texel: the line through raised codes, 256 + new = slope·(256 + old) + first.
@@ -249,7 +249,7 @@ mod tests {
         }
     }
 
-    /// What saturates, or depends on another channel, is none.
+    /// Blending that saturates, or depends on another channel, is no line.
     #[test]
     fn other_blending_is_no_line() {
         let color = [0.75, 0.5, 0.25, 0.5].map(|value| Packet([value; LANES]));

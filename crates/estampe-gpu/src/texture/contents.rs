@@ -33,7 +33,7 @@ pub(crate) enum Newest {
     Discarded,
 }
 
-/// What a pass needs of an image that it takes.
+/// The need of a pass for an image that it takes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Needs {
     /// The texels as they are.

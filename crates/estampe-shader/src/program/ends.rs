@@ -7,7 +7,7 @@ use super::read_place::{MOST as MOST_READS, scalar_of};
 use estampe_ir::interface::{Input, Output};
 use estampe_ir::interpreter::Part;
 
-/// What the inputs of a stage are parts of.
+/// The data of a batch that inputs of a stage are parts of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Source {
     Attributes,
@@ -24,7 +24,7 @@ pub(super) enum Source {
     Immediates,
 }
 
-/// What the outputs of a stage are parts of.
+/// The data of a batch that outputs of a stage are parts of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Target {
     Positions,
@@ -43,7 +43,7 @@ pub(super) const MOST: usize = MOST_READS + 8;
 /// The inputs or outputs of a stage as parts of a batch's data.
 #[derive(Debug)]
 pub(super) struct Ends<T> {
-    /// What each input or output is a part of, by its number among `data`.
+    /// By input or output: its part of one of `data`.
     parts: Vec<Part>,
     /// Each once.
     data: Vec<T>,
@@ -86,7 +86,7 @@ impl<T: PartialEq> Ends<T> {
         &self.parts
     }
 
-    /// What they are parts of.
+    /// The data that they are parts of.
     pub(super) fn data(&self) -> &[T] {
         &self.data
     }

@@ -34,7 +34,7 @@ thread_local! {
     static MEMORY: Cell<Memory> = Cell::default();
 }
 
-/// What is made for a batch, in memory that the next one uses again.
+/// Results for a batch, in memory that the next one uses again.
 #[derive(Debug, Default)]
 struct Memory {
     texels: Vec<Packet<f32>>,

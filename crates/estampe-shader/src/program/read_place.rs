@@ -126,7 +126,7 @@ pub(super) struct Read {
     /// Its first result.
     pub(super) first: Value,
     pub(super) place: Place,
-    /// What is added to each coordinate.
+    /// The shift of each coordinate.
     pub(super) shifts: Vec<Shift<Value>>,
     /// The positions in the interface of its texture and sampler.
     pub(super) texture: [u32; 2],

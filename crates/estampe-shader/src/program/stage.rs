@@ -93,12 +93,12 @@ impl Stage {
         }
     }
 
-    /// What a run of a vertex or fragment stage is given for its inputs.
+    /// The data that a run of a vertex or fragment stage is given for its inputs.
     pub(super) fn sources(&self) -> &[Source] {
         self.inputs.data()
     }
 
-    /// What a run of a vertex or fragment stage is given for its outputs.
+    /// The data that a run of a vertex or fragment stage is given for its outputs.
     pub(super) fn targets(&self) -> &[Target] {
         self.outputs.data()
     }

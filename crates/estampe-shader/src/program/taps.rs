@@ -18,7 +18,7 @@ use std::collections::HashMap;
 /// The most taps of a filter.
 pub(super) const MOST_TAPS: usize = 16;
 
-/// What is added to a coordinate.
+/// A number that is added to a coordinate.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Shift<V> {
     /// Nothing.
@@ -40,7 +40,7 @@ impl<V> Shift<V> {
 }
 
 impl Shift<usize> {
-    /// What is added, given the uniform values.
+    /// The number that is added, given the uniform values.
     fn amount(self, values: &[u32]) -> f32 {
         match self {
             // Unlike +0, −0 changes no number.

@@ -17,7 +17,7 @@ const MOST_OPERATIONS: usize = 32;
 /// The most words of a texture's shape.
 const SHAPE: usize = 3;
 
-/// What uniform values are computed from.
+/// The data that uniform values are computed from.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Sources<'a> {
     pub(super) textures: &'a BoundTextures<'a>,
@@ -30,7 +30,7 @@ pub(super) struct Sources<'a> {
 pub(super) struct Uniforms {
     /// The constants, and zeros for the others.
     initial: Vec<u32>,
-    /// What computes each of the others, in order.
+    /// The operations that compute the others, in order.
     steps: Vec<(usize, Step)>,
 }
 
@@ -90,7 +90,7 @@ pub(super) struct Finder<'a> {
     uniforms: Uniforms,
 }
 
-/// What computes a value.
+/// The operation that computes a value.
 #[derive(Clone, Copy)]
 struct Definition<'a> {
     op: &'a Op,
@@ -207,7 +207,7 @@ impl<'a> Finder<'a> {
         self.numbers.insert(value, number);
     }
 
-    /// What computes the values that were numbered.
+    /// The steps that compute the values that were numbered.
     pub(super) fn finish(self) -> Uniforms {
         self.uniforms
     }

@@ -38,7 +38,7 @@ struct Varyings {
 }
 ";
 
-/// What the slots hold before the store, and behind it.
+/// The slots before the store, and after it.
 const BEFORE: [u32; 4] = [16, 2, 9, 0];
 const AFTER: [u32; 4] = [5, 8, 11, 14];
 

@@ -338,7 +338,7 @@ fn operands(terminator: &Terminator) -> impl Iterator<Item = Value> {
     values.into_iter()
 }
 
-/// The same, to replace them.
+/// The operands of a terminator, to replace them.
 fn operands_mut(terminator: &mut Terminator) -> impl Iterator<Item = &mut Value> {
     let (mask, first, second, values) = match terminator {
         Terminator::Jump(jump) => (None, Some(jump), None, None),
@@ -407,7 +407,7 @@ impl Writer<'_> {
         self.push(Op::Compare(Compare::ULe, [bound, squares]))
     }
 
-    /// What is left of a small angle.
+    /// The rest of a small angle.
     fn remainder(&mut self, angle: Value, multiple: &Multiple, sine: &Sine) -> Value {
         let [first, second] = sine.parts_of_pi;
         let [first, second] = [self.number(-first), self.number(second)];

@@ -27,8 +27,8 @@ pub(super) struct Solid<const N: usize> {
     covered: PacketMasks<N>,
 }
 
-/// What the colour of primitives depends on over which nothing varies: the varyings of all
-/// fragments, and whether the primitives face the viewer.
+/// The inputs of the colour of primitives over which nothing varies: the varyings of all fragments,
+/// and whether the primitives face the viewer.
 #[derive(Debug, Default)]
 pub(super) struct SolidInputs {
     pub(super) varyings: Vec<f32>,

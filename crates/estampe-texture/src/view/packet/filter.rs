@@ -111,7 +111,7 @@ impl SampledTexture {
     }
 }
 
-/// What was found of a packet, in the lanes of columns and rows.
+/// The lanes of a packet's columns and rows whose texels have neighbours.
 #[derive(Clone, Copy, Default)]
 struct Found {
     /// True if all texels have a neighbour in the level.
