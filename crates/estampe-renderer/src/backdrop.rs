@@ -3,8 +3,8 @@
 //! It comes after the opaque surfaces and passes where nothing was drawn: at the far plane, which
 //! no surface reaches. Ground and transparent surfaces are blended over it.
 
-use crate::frame::RenderError;
 use crate::geometry::vertex_data::{StreamData, VertexStream};
+use crate::render_error::RenderError;
 use crate::shading::backdrop::{Backdrop, BackdropSurface};
 use crate::surface_pipelines::FrameStyle;
 use estampe::state::{BlendState, CompareFunction, DepthState, MultisampleState, PrimitiveState};

@@ -12,9 +12,9 @@
 //! background after the tone map.
 
 use crate::draw_plan::DrawPlan;
-use crate::frame::RenderError;
 use crate::ground::GroundShadow;
 use crate::options::{RenderOptions, Shading};
+use crate::render_error::RenderError;
 use crate::scene_view::SceneView;
 use crate::shading::pbr::transmission::{Background, BehindView};
 use estampe::{

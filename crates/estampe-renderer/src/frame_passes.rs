@@ -8,11 +8,13 @@
 //! The samples are of the same format between passes as in one, so a pixel without transparent
 //! surface has the same bits with every method.
 
+use crate::attachments::Attachments;
 use crate::backdrop::BackdropDraw;
 use crate::draw_plan::DrawPlan;
-use crate::frame::{Attachments, FrameStage, OnStage, RenderError, TransparentLayers};
+use crate::frame::{FrameStage, OnStage, TransparentLayers};
 use crate::ground::GroundShadow;
 use crate::options::{RenderOptions, Transparency};
+use crate::render_error::RenderError;
 use crate::shading::surface::DEPTH_ORDER;
 use crate::surface_pipelines::FrameStyle;
 use estampe::{

@@ -16,6 +16,8 @@
 //!        ├─ surface_program     a program of the caller's, in place of those of `shading`
 //!        ├─ material_programs   the shader of each surface, and what it reads
 //!        ├─ surface_pipelines   material programs × vertex streams -> pipelines
+//!        ├─ frame_style     what all draws of a frame have in common
+//!        ├─ attachments     the images that a frame is drawn to
 //!        ├─ draw_plan       the draws, in order
 //!        ├─ frame_passes    the passes: one, or those of order-independent transparency
 //!        ├─ frame           render: all of it, and reading back the pixels
@@ -40,6 +42,7 @@ pub mod camera;
 
 mod alpha;
 mod alpha_levels;
+mod attachments;
 mod backdrop;
 mod behind;
 mod canvas;
@@ -48,6 +51,7 @@ mod environment;
 mod feature_edges;
 mod frame;
 mod frame_passes;
+mod frame_style;
 mod geometry;
 mod gradient;
 mod ground;
@@ -59,6 +63,7 @@ mod options;
 mod pbr_lighting;
 mod pbr_materials;
 mod pixel_history;
+mod render_error;
 mod scene_view;
 mod section;
 #[doc(hidden)]
@@ -82,7 +87,7 @@ pub use environment::{EnvironmentError, EnvironmentMap};
 pub use estampe::state::CullMode;
 pub use estampe::transforms;
 pub use feature_edges::FeatureEdges;
-pub use frame::{Frame, FrameStage, FrameTimings, RenderError, TransparentLayers};
+pub use frame::{Frame, FrameStage, FrameTimings, TransparentLayers};
 pub use frame::{render, render_light, render_spent, render_watched};
 pub use geometry::face_colors::face_color;
 pub use gradient::{Gradient, GradientShape};
@@ -92,6 +97,7 @@ pub use options::{
     Environment, Fog, Ground, RenderOptions, Shading, Specular, SpecularModel, Transparency, Up,
 };
 pub use pixel_history::{FramePixel, FrameStages, VertexSpaces, inspect, inspect_stages};
+pub use render_error::RenderError;
 pub use section::{Section, SectionPlane};
 pub use shading::pbr::tone_map::ToneMap;
 pub use surface_points::{SurfacePoint, SurfacePoints, surface_points};

@@ -2,9 +2,9 @@
 
 use crate::alpha_levels::{self, has_alpha};
 use crate::behind::alpha_of;
-use crate::frame::RenderError;
 use crate::options::{RenderOptions, Shading, SpecularModel};
 use crate::pbr_materials::images_of;
+use crate::render_error::RenderError;
 use crate::scene_view::SceneView;
 use crate::shading::bump::BumpMap;
 use crate::shading::lighting::{Gloss, Highlight};

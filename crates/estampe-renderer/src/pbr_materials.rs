@@ -1,11 +1,11 @@
 //! Physically based materials, prepared for shaders.
 
 use crate::behind::{alpha_of, is_transmissive};
-use crate::frame::RenderError;
 use crate::geometry::faces::normals_oppose_winding;
 use crate::materials::Texels::{Colors, Numbers};
 use crate::materials::{Materials, Texels, TextureKey};
 use crate::options::Shading;
+use crate::render_error::RenderError;
 use crate::shading::pbr::parameters::{
     AnisotropyParameters, ClearcoatParameters, IridescenceParameters, NormalMap, Occlusion,
     PbrParameters, SheenParameters, SpecularParameters,

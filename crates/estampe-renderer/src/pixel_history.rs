@@ -2,10 +2,12 @@
 //! spaces that the renderer knows: object, world and eye space.
 
 use crate::alpha::straighten;
-use crate::frame::{RenderError, encoding, with_passes};
+use crate::frame::with_passes;
 use crate::frame_passes::FramePasses;
+use crate::frame_style::encoding;
 use crate::light::FrameOutput;
 use crate::options::{RenderOptions, Transparency};
+use crate::render_error::RenderError;
 use crate::scene_view::SceneView;
 use estampe::{Device, PassStages, PixelHistory, StoreOp};
 use estampe_scene::Scene;

@@ -1,12 +1,12 @@
 //! The pipelines of each surface: its shader, vertex streams and fixed-function state.
 
 use crate::behind::{BehindPicture, LIGHT};
-use crate::frame::RenderError;
 use crate::geometry::vertex_data::{MeshStreams, VertexStream};
 use crate::ground::ColumnMaps;
 use crate::light::FrameOutput;
 use crate::material_programs::MaterialProgram;
 use crate::options::Shading;
+use crate::render_error::RenderError;
 use crate::shading::VertexTransforms;
 use crate::shading::backdrop::Backdrop;
 use crate::shading::bump::BumpMap;

@@ -2,13 +2,13 @@
 
 use super::drawing::{DrawPlan, PlannedDraw};
 use super::surfaces::{MeshDraws, PipelineKey};
-use crate::frame::RenderError;
 use crate::geometry::faces::{FaceAttributes, LitAt, unshared_streams};
 use crate::geometry::order::{DistantTriangle, back_to_front};
 use crate::geometry::tangents::with_tangents;
 use crate::geometry::vertex_data::{MeshStreams, StreamData, VertexStream};
 use crate::materials::{Materials, TextureKey};
 use crate::options::{RenderOptions, Shading};
+use crate::render_error::RenderError;
 use crate::scene_view::SceneView;
 use crate::surface_pipelines::{FrameStyle, StreamPipeline, SurfaceAlpha};
 use estampe::{BufferError, BufferSlice, Device, Texture, TextureError};

@@ -3,9 +3,10 @@
 use super::drawing::PlannedDraw;
 use super::planner::{DrawPlanBuilder, Planner, buffers_of, element_count};
 use crate::alpha::decode;
-use crate::frame::{RenderError, encoding};
+use crate::frame_style::encoding;
 use crate::geometry::vertex_data::{MeshStreams, StreamData};
 use crate::options::{RenderOptions, Shading};
+use crate::render_error::RenderError;
 use crate::shading::inspection::Overdraw;
 use crate::shading::points_and_lines::PointsAndLines;
 use crate::surface_pipelines::{Role, is_smooth};

@@ -3,12 +3,12 @@
 
 use super::drawing::PlannedDraw;
 use super::planner::{DrawPlanBuilder, Planner, buffers_of, element_count};
-use crate::frame::RenderError;
 use crate::geometry::faces::{FaceAttributes, LitAt, unshared_streams};
 use crate::geometry::order::DistantTriangle;
 use crate::geometry::vertex_data::MeshStreams;
 use crate::materials::Materials;
 use crate::options::Transparency;
+use crate::render_error::RenderError;
 use crate::surface_pipelines::{Role, SurfaceAlpha, SurfaceStyle};
 use crate::transforms::round_to_f32;
 use estampe::{BufferError, BufferSlice};

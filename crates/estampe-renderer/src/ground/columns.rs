@@ -4,7 +4,7 @@
 
 use super::GroundFrame;
 use crate::draw_plan::DrawPlan;
-use crate::frame::RenderError;
+use crate::render_error::RenderError;
 use crate::shading::shadow::MAX_SHADOW_MAPS;
 use crate::transforms::projection::{self, DepthConvention, Frustum};
 use crate::transforms::{round_to_f32, to_f32};

@@ -23,8 +23,8 @@ mod outline;
 mod tests;
 
 use crate::alpha::{Encoding, decode};
-use crate::frame::RenderError;
 use crate::options::RenderOptions;
+use crate::render_error::RenderError;
 use crate::scene_view::orientation;
 use estampe_scene::{Bounds, Material, Mesh, Scene, Workers};
 use glam::{DVec3, Vec3};

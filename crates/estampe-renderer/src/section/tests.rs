@@ -1,8 +1,8 @@
 //! Sections of meshes whose cross-sections are known.
 
 use super::{SectionPlane, clip, half_spaces};
-use crate::frame::RenderError;
 use crate::options::RenderOptions;
+use crate::render_error::RenderError;
 use estampe_scene::{Mesh, Scene, UpAxis, Workers};
 use glam::{DVec3, Vec3};
 

@@ -12,8 +12,8 @@ mod fit;
 pub(crate) use fit::ShadowSource;
 
 use crate::draw_plan::DrawPlan;
-use crate::frame::RenderError;
 use crate::options::{RenderOptions, Shading};
+use crate::render_error::RenderError;
 use crate::scene_view::SceneView;
 use crate::shading::shadow::{MAX_SHADOW_MAPS, ShadowMapView};
 use estampe::{

@@ -3,7 +3,7 @@
 use super::ribbon::Ribbon;
 use super::window::Window;
 use super::{Stroke, StrokeStyle};
-use crate::frame::RenderError;
+use crate::render_error::RenderError;
 use crate::shading::stroke::StrokeShader;
 use crate::surface_pipelines::{FrameStyle, StreamPipeline};
 use crate::transforms::round_to_f32;

@@ -1,9 +1,10 @@
 //! The numbers of visible triangles.
 
-use crate::frame::{RenderError, with_passes};
+use crate::frame::with_passes;
 use crate::geometry::face_colors::{MOST_FACES, face_number};
 use crate::light::FrameOutput;
 use crate::options::{Ground, RenderOptions, Shading};
+use crate::render_error::RenderError;
 use crate::scene_view::SceneView;
 use crate::section::Section;
 use estampe::Device;

@@ -13,8 +13,8 @@ mod faces;
 mod hit;
 
 use crate::camera::Pinhole;
-use crate::frame::RenderError;
 use crate::options::RenderOptions;
+use crate::render_error::RenderError;
 use estampe::Device;
 use estampe_scene::{Camera, Scene, Workers};
 use faces::Faces;
