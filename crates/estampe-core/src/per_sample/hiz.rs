@@ -112,45 +112,27 @@ impl HierarchicalZ {
         dispatch!(level, s => self.classify_lanes::<_, N>(s, look, (compare, or_equal), stored))
     }
 
-    /// Returns true if no sample of a triangle can pass anywhere in the tile. Tests only the
-    /// plane's nearest corner, which is quick for the many triangles that something in front hides.
-    /// Returns false where bounds are out of date.
+    /// Returns true if no sample of a triangle can pass anywhere in the tile, given its
+    /// [nearest](HizQuery::nearest) depth. Where order does not decide between equal depths,
+    /// `or_equal` says that those may pass. Returns false where bounds are out of date.
     #[inline]
-    pub(crate) fn hides<const N: usize>(&self, look: &HizQuery<'_, N>, or_equal: bool) -> bool {
-        let Some(compare) = look.tests.depth.map(|state| state.compare) else {
-            return false;
-        };
+    pub(crate) fn hides(&self, nearest: f32, compare: CompareFunction, or_equal: bool) -> bool {
         if self.stale != 0 || !orders(compare) {
             return false;
         }
-        let side = look.tile.side();
-        let is_less = prefers_less(compare);
-        let DepthPlane { origin, z } = &look.plane;
-        let positions = look.samples.subpixels();
-        let nearest = |slope: f32, axis: usize, tile: i32, origin: f32| {
-            (tile as f32 + corner(&positions, axis, slope, is_less, side)) - origin
-        };
-        let (tile_x, tile_y) = (look.tile.x, look.tile.y);
-        let x = nearest(z.dx, 0, tile_x, origin.x);
-        let y = nearest(z.dy, 1, tile_y, origin.y);
-        let [low, high] = look.tests.stored.range;
-        let depth = z.origin + (x * z.dx + y * z.dy);
-        // As lanes are clamped: NaN becomes the lower end.
-        let depth = if depth > low { depth } else { low };
-        let depth = if depth < high { depth } else { high };
-        let depth = look.tests.stored.format.stored(depth);
         let strict = or_equal
             || matches!(
                 compare,
                 CompareFunction::LessEqual | CompareFunction::GreaterEqual
             );
         let [least, greatest] = self.tile;
+        let is_less = prefers_less(compare);
         let is_behind = if is_less {
-            depth > greatest
+            nearest > greatest
         } else {
-            depth < least
+            nearest < least
         };
-        is_behind || !strict && depth == if is_less { greatest } else { least }
+        is_behind || !strict && nearest == if is_less { greatest } else { least }
     }
 
     /// Finds the range of the tile, after that of some blocks has changed.
@@ -291,6 +273,30 @@ fn extreme<S: Lanes, const N: usize>(s: S, look: &HizQuery<'_, N>, least: bool) 
     })
 }
 
+impl<const N: usize> HizQuery<'_, N> {
+    /// The depth, as it is stored, that no sample of the triangle in the tile is nearer than; the
+    /// comparison orders depths. Of the plane's nearest corner alone, which is quick for the many
+    /// triangles that something in front hides.
+    #[inline]
+    pub(crate) fn nearest(&self, compare: CompareFunction) -> f32 {
+        let side = self.tile.side();
+        let is_less = prefers_less(compare);
+        let DepthPlane { origin, z } = &self.plane;
+        let positions = self.samples.subpixels();
+        let nearest = |slope: f32, axis: usize, tile: i32, origin: f32| {
+            (tile as f32 + corner(&positions, axis, slope, is_less, side)) - origin
+        };
+        let x = nearest(z.dx, 0, self.tile.x, origin.x);
+        let y = nearest(z.dy, 1, self.tile.y, origin.y);
+        let [low, high] = self.tests.stored.range;
+        let depth = z.origin + (x * z.dx + y * z.dy);
+        // As lanes are clamped: NaN becomes the lower end.
+        let depth = if depth > low { depth } else { low };
+        let depth = if depth < high { depth } else { high };
+        self.tests.stored.format.stored(depth)
+    }
+}
+
 /// Where in a square of `side` pixels, on an axis, a plane is least (or greatest) at a sample: at
 /// the first sample where it rises, at the last where it falls.
 #[inline(always)]
@@ -331,4 +337,79 @@ pub(super) fn starts_of_units<S: Lanes>(s: S, side: u8) -> [f32x16<S>; 2] {
         rows[lane] = f32::from(LANE_Y[lane] * side);
     }
     [f32x16::load_array(s, columns), f32x16::load_array(s, rows)]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::depth_format::{DepthFormat, StoredDepth};
+    use estampe_types::state::DepthState;
+
+    const TILE: TileShape = TileShape {
+        x: 64,
+        y: 128,
+        log2: 6,
+    };
+
+    /// Of random planes: no pixel of the tile is nearer than the nearest depth, and a tile whose
+    /// depths are all nearer than that hides the triangle.
+    #[test]
+    fn no_pixel_is_nearer_than_the_nearest_depth() {
+        let mut state = 5u32;
+        let mut random = || {
+            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            (state >> 8) as f32 / 16_777_216.0 - 0.5
+        };
+        for compare in [CompareFunction::Less, CompareFunction::GreaterEqual] {
+            for _ in 0..200 {
+                let tests = SampleTests {
+                    bounds: None,
+                    stencil: None,
+                    depth: Some(DepthState {
+                        write_enabled: true,
+                        compare,
+                    }),
+                    stored: StoredDepth {
+                        range: [0.0, 1.0],
+                        format: DepthFormat::Float,
+                    },
+                };
+                let z = Plane {
+                    origin: random() + 0.5,
+                    dx: random() / 64.0,
+                    dy: random() / 64.0,
+                };
+                let look = HizQuery {
+                    tests: &tests,
+                    plane: DepthPlane {
+                        origin: PlaneOrigin { x: 90.5, y: 140.25 },
+                        z,
+                    },
+                    tile: TILE,
+                    samples: SampleSet::<1>::new(1),
+                    passes_in_vain: false,
+                };
+                let nearest = look.nearest(compare);
+                for pixel in 0..64 * 64 {
+                    let x = (TILE.x + pixel % 64) as f32 + 0.5 - 90.5;
+                    let y = (TILE.y + pixel / 64) as f32 + 0.5 - 140.25;
+                    let depth = (z.origin + (x * z.dx + y * z.dy)).clamp(0.0, 1.0);
+                    match prefers_less(compare) {
+                        true => assert!(depth >= nearest, "{depth} {nearest} {look:?}"),
+                        false => assert!(depth <= nearest, "{depth} {nearest} {look:?}"),
+                    }
+                }
+                let toward_viewer = if prefers_less(compare) { -0.01 } else { 0.01 };
+                let mut hiz = HierarchicalZ::default();
+                hiz.begin(TILE, Some(nearest + toward_viewer));
+                assert!(hiz.hides(nearest, compare, true), "{look:?}");
+                hiz.begin(TILE, Some(nearest - toward_viewer));
+                assert!(!hiz.hides(nearest, compare, true), "{look:?}");
+                // What was written since is not known.
+                hiz.begin(TILE, Some(nearest + toward_viewer));
+                hiz.invalidate(1);
+                assert!(!hiz.hides(nearest, compare, true), "{look:?}");
+            }
+        }
+    }
 }

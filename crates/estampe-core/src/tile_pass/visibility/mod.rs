@@ -119,9 +119,12 @@ pub(super) fn add<const N: usize>(
     buffer.has_one_color_draws |= key.has_colors && key.uniform_over_draw;
     if may_wait {
         ahead.skip(entries.len());
-        if !scratch.visibility.waiting.add(work, entries, first) {
+        let samples = pass.sample_set::<N>();
+        let waiting = &mut scratch.visibility.waiting;
+        if !waiting.add(work, entries, first, samples) {
             rasterize::rasterize_waiting(pass, job, scratch);
-            let added = scratch.visibility.waiting.add(work, entries, first);
+            let waiting = &mut scratch.visibility.waiting;
+            let added = waiting.add(work, entries, first, samples);
             debug_assert!(added, "as many as may wait fit an empty list");
         }
         return;

@@ -2,7 +2,7 @@
 
 use super::buffer::TriangleRef;
 use super::gathered::GatheredTriangles;
-use super::shortcuts::OrderKind;
+use super::shortcuts::{OrderKind, WaitingTriangle};
 use super::writer::{IdStorage, VisibilityTriangle, VisibilityWriter};
 use super::{Ahead, ONLY_WIDE};
 use crate::bounds::bins::BinEntry;
@@ -72,7 +72,12 @@ pub(super) fn rasterize_waiting<const N: usize>(
     let mut waiting = std::mem::take(&mut scratch.visibility.waiting);
     let order = waiting.sort();
     let mut work: Option<TileWork<'_>> = None;
-    for id in waiting.ids() {
+    let is_any_order = order == OrderKind::NearestFirst;
+    for waiting_triangle in waiting.triangles() {
+        let WaitingTriangle { nearest, id, .. } = *waiting_triangle;
+        if scratch.hiz.hides(nearest, waiting.compare(), is_any_order) {
+            continue;
+        }
         let triangle = scratch.visibility.buffer.triangles[id as usize];
         let run = [triangle.chunk, triangle.sub_draw];
         let work = match &mut work {
@@ -80,7 +85,7 @@ pub(super) fn rasterize_waiting<const N: usize>(
             work => work.insert(TileWork::new(pass, run, job.tile)),
         };
         let mut rasterizer = Rasterizer::new(pass, work, order, job, scratch);
-        rasterizer.large_unless_hidden(triangle.packet, triangle.lane, id);
+        rasterizer.waiting(triangle.packet, triangle.lane, id);
     }
     waiting.clear();
     scratch.visibility.waiting = waiting;
@@ -142,17 +147,14 @@ impl<'a, 'j, 't, const N: usize> Rasterizer<'a, 'j, 't, N> {
         }
     }
 
-    /// The triangle of one lane, which is large.
-    fn large_unless_hidden(&mut self, packet: u32, lane: u8, id: u32) {
+    /// A triangle that waited, which is large.
+    fn waiting(&mut self, packet: u32, lane: u8, id: u32) {
         let packet = &self.work.chunk.triangles[packet as usize];
         let lane = usize::from(lane);
+        let TileWork { shape, rect, .. } = self.work;
         let triangle = packet.triangle(lane);
-        let look = self.hiz_query(DepthPlane::new(&triangle), triangle.front);
-        if !self.scratch.hiz.hides(&look, self.is_any_order()) {
-            let TileWork { shape, rect, .. } = self.work;
-            if let Some(covering) = TileTriangle::new(&triangle, *shape, rect, self.samples) {
-                self.large((packet, lane), &covering, id);
-            }
+        if let Some(covering) = TileTriangle::new(&triangle, *shape, rect, self.samples) {
+            self.large((packet, lane), &covering, id);
         }
     }
 

@@ -14,4 +14,4 @@ mod waiting_triangles;
 
 pub(super) use primitive_texels::PrimitiveTexels;
 pub(super) use single_primitive_blocks::SinglePrimitiveBlocks;
-pub(super) use waiting_triangles::{OrderKind, WaitingTriangles, may_wait};
+pub(super) use waiting_triangles::{OrderKind, WaitingTriangle, WaitingTriangles, may_wait};

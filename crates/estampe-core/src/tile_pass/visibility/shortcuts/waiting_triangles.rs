@@ -5,6 +5,8 @@ use crate::bounds::bins::BinEntry;
 use crate::bounds::primitives::TrianglePacket;
 use crate::fragment::interpolate::DepthPlane;
 use crate::per_sample::compare::{orders, prefers_less};
+use crate::per_sample::hiz::HizQuery;
+use crate::raster::SampleSet;
 use crate::tile_pass::TileWork;
 use crate::tile_path::TilePath;
 use estampe_types::state::{CompareFunction, DepthState};
@@ -23,69 +25,105 @@ pub(in crate::tile_pass::visibility) enum OrderKind {
     NearestFirst,
 }
 
+/// A triangle that waits.
+#[derive(Debug, Clone, Copy)]
+pub(in crate::tile_pass::visibility) struct WaitingTriangle {
+    /// What they are sorted by: its depth at the tile's middle, or the negative of it.
+    key: f32,
+    /// Its nearest depth in the tile.
+    pub(in crate::tile_pass::visibility) nearest: f32,
+    /// Its visibility id.
+    pub(in crate::tile_pass::visibility) id: u32,
+}
+
 /// Large triangles that wait to be rasterized.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub(in crate::tile_pass::visibility) struct WaitingTriangles {
-    /// For each: what they are sorted by, its depth at the tile's middle or the negative of it, and
-    /// its visibility id.
-    by_depth: Vec<(f32, u32)>,
+    triangles: Vec<WaitingTriangle>,
     /// The depth test of all of them.
-    compare: Option<CompareFunction>,
+    compare: CompareFunction,
+}
+
+impl Default for WaitingTriangles {
+    fn default() -> Self {
+        Self {
+            triangles: Vec::new(),
+            compare: CompareFunction::Less,
+        }
+    }
 }
 
 impl WaitingTriangles {
     /// Returns true if no triangles wait.
     pub(in crate::tile_pass::visibility) fn is_empty(&self) -> bool {
-        self.by_depth.is_empty()
+        self.triangles.is_empty()
+    }
+
+    /// The depth test of those that wait.
+    pub(in crate::tile_pass::visibility) fn compare(&self) -> CompareFunction {
+        self.compare
     }
 
     /// Adds the triangles of a bin, if they fit those that wait; `first` is the first one's id.
     /// Returns false, and adds nothing, if they do not.
-    pub(in crate::tile_pass::visibility) fn add(
+    pub(in crate::tile_pass::visibility) fn add<const N: usize>(
         &mut self,
         work: &TileWork<'_>,
         entries: &[BinEntry],
         first: u32,
+        samples: SampleSet<N>,
     ) -> bool {
         let Some(DepthState { compare, .. }) = work.plan.tests.depth else {
             return false;
         };
-        let is_full = self.by_depth.len() + entries.len() > MAX_WAITING;
-        if is_full || !self.is_empty() && self.compare != Some(compare) {
+        let is_full = self.triangles.len() + entries.len() > MAX_WAITING;
+        if is_full || !self.is_empty() && self.compare != compare {
             return false;
         }
-        self.compare = Some(compare);
+        self.compare = compare;
         let half = work.shape.side() as f32 * 0.5;
         let middle = [work.shape.x as f32 + half, work.shape.y as f32 + half];
         for (id, entry) in (first..).zip(entries) {
             let (packet, lane) = triangle_of(work, entry);
-            let DepthPlane { origin, z } = DepthPlane::new(&packet.triangle(lane));
+            let query = HizQuery {
+                tests: &work.plan.tests,
+                plane: DepthPlane::of_lane(packet, lane),
+                tile: work.shape,
+                samples,
+                passes_in_vain: false,
+            };
+            let DepthPlane { origin, z } = &query.plane;
             let depth = z.origin + ((middle[0] - origin.x) * z.dx + (middle[1] - origin.y) * z.dy);
             let nearer_is_less = prefers_less(compare);
-            let key = if nearer_is_less { depth } else { -depth };
-            self.by_depth.push((key, id));
+            self.triangles.push(WaitingTriangle {
+                key: if nearer_is_less { depth } else { -depth },
+                nearest: query.nearest(compare),
+                id,
+            });
         }
         true
     }
 
     /// Sorts the triangles and returns the order that they are in now.
     pub(in crate::tile_pass::visibility) fn sort(&mut self) -> OrderKind {
-        if self.by_depth.is_sorted_by(|a, b| a.0 <= b.0) {
+        if self.triangles.is_sorted_by(|a, b| a.key <= b.key) {
             return OrderKind::SubmissionOfLarge;
         }
         // A stable sort, so NaN and equal depths change nothing but time.
-        self.by_depth.sort_by(|a, b| a.0.total_cmp(&b.0));
+        self.triangles.sort_by(|a, b| a.key.total_cmp(&b.key));
         OrderKind::NearestFirst
     }
 
-    /// The ids, in the order of the triangles.
-    pub(in crate::tile_pass::visibility) fn ids(&self) -> impl Iterator<Item = u32> {
-        self.by_depth.iter().map(|(_, id)| *id)
+    /// The triangles, in their order.
+    pub(in crate::tile_pass::visibility) fn triangles(
+        &self,
+    ) -> impl Iterator<Item = &WaitingTriangle> {
+        self.triangles.iter()
     }
 
     /// Forgets the triangles.
     pub(in crate::tile_pass::visibility) fn clear(&mut self) {
-        self.by_depth.clear();
+        self.triangles.clear();
     }
 }
 
