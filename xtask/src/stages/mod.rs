@@ -32,6 +32,7 @@ const LAYERS: &[&[&str]] = &[
     ],
     // The stages of geometry.
     &[
+        "geometry::ahead",
         "geometry::viewport",
         "geometry::facing",
         "geometry::depth_bias",

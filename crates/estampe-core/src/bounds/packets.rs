@@ -35,6 +35,12 @@ impl<P: Default> StalePackets<P> {
         &mut self.memory[self.len - 1]
     }
 
+    /// The memory of the packet that is added next, if it was taken before.
+    #[inline(always)]
+    pub(crate) fn upcoming(&self) -> Option<&P> {
+        self.memory.get(self.len)
+    }
+
     /// The number of packets.
     #[inline(always)]
     pub(crate) fn len(&self) -> usize {
@@ -115,6 +121,12 @@ impl TrianglePackets {
         self.is_last_passing = true;
         self.kept.push_number();
         &mut self.passing
+    }
+
+    /// See [`StalePackets::upcoming`].
+    #[inline(always)]
+    pub(crate) fn upcoming(&self) -> Option<&TrianglePacket> {
+        self.kept.upcoming()
     }
 
     /// The number of packets.

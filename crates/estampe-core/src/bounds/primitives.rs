@@ -74,6 +74,19 @@ impl TrianglePacket {
     pub(crate) fn triangle(&self, lane: usize) -> Triangle {
         PackedTriangle::of_lane(self, lane).unpack()
     }
+
+    /// Prefetches what coverage and tests use, and, if asked for, what interpolation does.
+    #[inline(always)]
+    pub(crate) fn prefetch<S: Lanes>(&self, s: S, interpolates: bool) {
+        s.prefetch(&self.x);
+        s.prefetch(&self.y);
+        s.prefetch(&self.z);
+        s.prefetch(&self.clockwise);
+        if interpolates {
+            s.prefetch(&self.vertex);
+            s.prefetch(&self.iw_at);
+        }
+    }
 }
 
 impl TrianglePacket {

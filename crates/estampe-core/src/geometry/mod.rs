@@ -7,7 +7,7 @@
 //! triangles ([`facing`] says which side is culled); [`setup`] sorts vertices ([`vertex_order`]),
 //! drops triangles that cover no sample ([`cull_uncovered`]), lets sixteen gather ([`waiting`]),
 //! makes planes and moves those of depth ([`depth_bias`]); [`binning`] finds tiles. [`filled`] is
-//! the loop over these, and [`chunk`] its entry.
+//! the loop over these, and [`chunk`] its entry. [`ahead`] prefetches what comes next.
 //!
 //! The exceptions: [`restart`] assembles primitives where indices may end them; [`clip_detour`]
 //! takes the few primitives that leave the view volume through [`clip`], with positions and
@@ -18,6 +18,8 @@
 //! primitives are assembled.
 
 pub(crate) mod plan;
+
+mod ahead;
 
 pub(crate) mod fetch;
 

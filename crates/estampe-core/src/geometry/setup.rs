@@ -257,6 +257,9 @@ impl<'a> Setup<'a> {
             }
             self.chunk.take_apart_last(pairs);
         }
+        if let (Some(next), false) = (self.chunk.triangles.upcoming(), takes_apart) {
+            next.prefetch(s, interpolates);
+        }
         let positions = [[x0, x1, x2], [y0, y1, y2]];
         bin_packet(s, self.plan, positions, pairs, self.chunk);
     }

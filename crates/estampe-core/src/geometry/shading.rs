@@ -4,6 +4,7 @@
 //! *In* a dense range of vertices · *Out* a slice of
 //! [`ShadedVertices`](super::shaded_vertices::ShadedVertices) · *Space* clip, then window.
 
+use super::ahead::prefetch;
 use super::fetch::{PacketIndex, fetch, fetch_rare};
 use super::shaded_vertices::{NEEDS_CLIPPING, PackedVertex, ShadedSlice};
 use super::viewport::ViewportTransform;
@@ -16,6 +17,9 @@ use estampe_types::{Bindings, BufferData, Interface, VertexBatch};
 
 /// The most packets that a program shades in one call: see [`vertex_packets`](estampe_types::Program::vertex_packets).
 const BATCH: usize = 8;
+
+/// The memory of vertices is prefetched as many before they are stored: four packets.
+const AHEAD: usize = 4 * LANES;
 
 /// Vertices of a packet.
 #[expect(clippy::cast_possible_truncation, reason = "sixteen")]
@@ -319,6 +323,9 @@ fn store_batch<S: Lanes>(
         ];
         let first = batch.done + packet * LANES;
         let count = (out.window.len() - first).min(LANES);
+        let ahead = first + AHEAD;
+        prefetch(s, out.window, ahead, LANES);
+        prefetch(s, out.varyings, ahead * stride, LANES * stride);
         store_records(s, window, &mut out.window[first..][..count]);
         if !out.clip.is_empty() {
             let clip = [

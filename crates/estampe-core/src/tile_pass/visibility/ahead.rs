@@ -67,7 +67,7 @@ impl<'a> Ahead<'a> {
                 break;
             };
             if number > self.drawn {
-                prefetch_packet(s, packet, reads_varyings);
+                packet.prefetch(s, reads_varyings);
             }
         }
         while self.varyings.taken <= self.drawn + VARYINGS {
@@ -79,19 +79,6 @@ impl<'a> Ahead<'a> {
                 prefetch_varyings(s, packet, &source);
             }
         }
-    }
-}
-
-/// Prefetches what is read of a packet.
-#[inline(always)]
-fn prefetch_packet<S: Lanes>(s: S, packet: &TrianglePacket, reads_varyings: bool) {
-    s.prefetch(&packet.x);
-    s.prefetch(&packet.y);
-    s.prefetch(&packet.z);
-    s.prefetch(&packet.clockwise);
-    if reads_varyings {
-        s.prefetch(&packet.vertex);
-        s.prefetch(&packet.iw_at);
     }
 }
 
