@@ -121,6 +121,9 @@ pub struct Statistics {
     /// Colour attachments of tiles that were resolved when the tile was drawn.
     #[doc(hidden)]
     pub tiles_resolved: u64,
+    /// Tiles that no primitive reached.
+    #[doc(hidden)]
+    pub tiles_only_cleared: u64,
     /// Colour attachments of tiles that were stored to images in row order when the tile was drawn.
     #[doc(hidden)]
     pub tiles_to_rows: u64,
@@ -199,6 +202,7 @@ impl std::ops::AddAssign for Statistics {
         self.paths += other.paths;
         self.groups_of_geometry += other.groups_of_geometry;
         self.tiles_resolved += other.tiles_resolved;
+        self.tiles_only_cleared += other.tiles_only_cleared;
         self.tiles_to_rows += other.tiles_to_rows;
         self.tiles_bounded += other.tiles_bounded;
         self.tiles_in_workers += other.tiles_in_workers;

@@ -72,6 +72,13 @@ impl Clear {
         self.colors.iter().skip(first).any(Option::is_some)
     }
 
+    /// Clears a tile in which nothing is drawn.
+    pub(super) fn tile<const N: usize>(&self, pass: &TilePass<'_>, job: &mut TileJob<'_>) {
+        self.stencil(job);
+        self.blocks::<N>(pass, job, u16::MAX);
+        self.waiting_colors::<N>(pass, job, None);
+    }
+
     /// Clears a tile's stencil values.
     pub(super) fn stencil(&self, job: &mut TileJob<'_>) {
         if let Some(stencil) = self.stencil {

@@ -75,6 +75,11 @@ impl TilePass<'_> {
         SampleSet::new(self.samples)
     }
 
+    /// Returns true if no primitive reaches a tile.
+    fn is_empty(&self, tile: u32) -> bool {
+        self.chunk_index.of_tile(tile).is_empty()
+    }
+
     fn tile_shape(&self, tile: u32) -> TileShape {
         let (x, y) = self.grid.tile_origin(tile);
         TileShape {
@@ -143,8 +148,20 @@ pub(crate) fn draw<const N: usize>(
     next: Option<&TileJob<'_>>,
     scratch: &mut TileScratch<N>,
 ) {
+    // While nothing is drawn, nothing is prefetched.
+    if pass.is_empty(job.tile) {
+        return draw_in_place(pass, job, scratch);
+    }
     let next = next.map(|next| NextTile::new(pass, next));
-    let job = &mut job.with_next(next.unwrap_or_default());
+    draw_in_place(pass, &mut job.with_next(next.unwrap_or_default()), scratch);
+}
+
+/// Draws a tile, in the worker's memory in place of the attachments that the pass discards.
+fn draw_in_place<const N: usize>(
+    pass: &TilePass<'_>,
+    job: &mut TileJob<'_>,
+    scratch: &mut TileScratch<N>,
+) {
     if pass.discards == Discards::default() {
         return draw_into(pass, job, scratch);
     }
@@ -156,6 +173,29 @@ pub(crate) fn draw<const N: usize>(
 
 /// Draws a tile into the attachments of its job.
 fn draw_into<const N: usize>(
+    pass: &TilePass<'_>,
+    job: &mut TileJob<'_>,
+    scratch: &mut TileScratch<N>,
+) {
+    if pass.is_empty(job.tile) {
+        pass.clear.tile::<N>(pass, job);
+        scratch.statistics.tiles_only_cleared += 1;
+    } else {
+        draw_chunks(pass, job, scratch);
+    }
+    resolve_samples(pass, job, scratch);
+    for rows in &mut job.rows {
+        rows.store(pass.level, job.colors[rows.color].as_flattened());
+        scratch.statistics.tiles_to_rows += 1;
+    }
+    if let Some(bounds) = &mut job.depth_bounds {
+        bounds.find(pass.level, job.depth.as_flattened());
+        scratch.statistics.tiles_bounded += 1;
+    }
+}
+
+/// Draws the runs of all chunks that reach a tile.
+fn draw_chunks<const N: usize>(
     pass: &TilePass<'_>,
     job: &mut TileJob<'_>,
     scratch: &mut TileScratch<N>,
@@ -189,15 +229,6 @@ fn draw_into<const N: usize>(
     visibility::resolve(pass, job, scratch);
     clear_blocks(pass, job, u16::MAX, scratch);
     clear_colors(pass, job, scratch);
-    resolve_samples(pass, job, scratch);
-    for rows in &mut job.rows {
-        rows.store(pass.level, job.colors[rows.color].as_flattened());
-        scratch.statistics.tiles_to_rows += 1;
-    }
-    if let Some(bounds) = &mut job.depth_bounds {
-        bounds.find(pass.level, job.depth.as_flattened());
-        scratch.statistics.tiles_bounded += 1;
-    }
 }
 
 /// Resolves the colours of a tile that is drawn, while they are in the cache.

@@ -216,3 +216,27 @@ fn a_pass_without_draws_clears() {
         case
     });
 }
+
+/// Rows: O8.
+#[test]
+fn tiles_that_no_primitive_reaches_are_only_cleared_or_kept() {
+    let statistics = check_paths(
+        "passes/empty tiles",
+        12,
+        ExpectedPaths::default(),
+        |random| {
+            let mut case = Case::new([200, 130], random.pick(&[1, 1, 2, 4, 8]));
+            case.clear_color = random.four(-0.5, 1.5);
+            for _ in 0..2 {
+                let vertices = triangles(random, Style::Small, case.size, 3);
+                case.draws.push(CaseDraw::new(Colored, &vertices));
+            }
+            case.second_pass = random.index(2);
+            case
+        },
+    );
+    assert!(
+        statistics.tiles_only_cleared > 0,
+        "a primitive reached each tile"
+    );
+}
