@@ -6,7 +6,7 @@
 //!
 //! A batch is written packet by packet, in order, because later packets may lie on earlier ones.
 //! The loop is compiled for RGBA8 and BGRA8 that replace or blend by a sum of common weights, three
-//! times for the commonest of these, for four half floats that blend so, and once for everything
+//! times for the commonest of these, for four half floats that do either, and once for everything
 //! else: there the format and the equation are matched for each packet, which costs a predicted
 //! branch. A copy of the loop for each of ten families of formats and three kinds of equations was
 //! five times as much code and took the compiler a minute.
@@ -78,6 +78,15 @@ impl ColorWriter<'_> {
                     Some(2) => target.write(s, CommonOver::<2>, batch, stored),
                     _ => target.write(s, *over, batch, stored),
                 }
+            }
+            (Family::Half2(codec), Equation::Replace) if const { !S::IS_SCALAR } => {
+                let codec = Common(codec);
+                Target {
+                    writer,
+                    codec,
+                    index,
+                }
+                .write(s, Replace, batch, stored);
             }
             (Family::Half2(codec), Equation::Over(over)) if const { !S::IS_SCALAR } => {
                 let codec = Common(codec);
