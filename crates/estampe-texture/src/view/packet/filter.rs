@@ -16,11 +16,29 @@ use super::taps::{Lines, MOST_LINES, MOST_TAPS, all_of};
 use crate::PacketPlaces;
 use crate::view::SampledTexture;
 use crate::view::coordinates::{Answers, packet};
-use estampe_simd::{Lanes as SimdLanes, Packet as Values, SimdBase, dispatch, f32x16};
+use estampe_simd::{LANES, Lanes as SimdLanes, Packet as Values, SimdBase, dispatch, f32x16};
 use estampe_types::AddressMode;
+use std::cell::RefCell;
 
 /// Columns and rows that are found before texels are filtered: of two packets or more.
 const MOST_SPOTS: usize = 2 * MOST_TAPS;
+
+thread_local! {
+    /// Memory that a batch need not clear.
+    static PLACES: RefCell<Places> = const {
+        RefCell::new(Places {
+            spots: [[Values([0.0; LANES]); 2]; MOST_SPOTS],
+            found: [Found::NONE; MOST_TAPS],
+        })
+    };
+}
+
+/// The columns and rows of some packets.
+struct Places {
+    spots: [Spot; MOST_SPOTS],
+    /// By packet.
+    found: [Found; MOST_TAPS],
+}
 
 /// The taps of each of several packets, at most [`MOST_TAPS`], that were not sampled: bit `i` is
 /// tap `i`.
@@ -54,17 +72,20 @@ impl SampledTexture {
         colors: &mut [Answers],
     ) -> OtherTaps {
         let all = [all_of(shifts.of_taps().len()); MOST_TAPS];
-        dispatch!(@specialized_move self.level, s => {
-            let Some(level) = BlockLevel::new(s, self, &self.view.planes[0]) else {
-                return all;
-            };
-            // Clamping is most common, and needs few of the constants that wrapping does.
-            if level.mode == AddressMode::ClampToEdge {
-                self.sample_packets_filtered::<_, true>(s, (&level, shifts), places, colors)
-            } else {
-                self.sample_packets_filtered::<_, false>(s, (&level, shifts), places, colors)
-            }
-        }, others => all)
+        PLACES.with_borrow_mut(|memory| {
+            dispatch!(@specialized_move self.level, s => {
+                let Some(level) = BlockLevel::new(s, self, &self.view.planes[0]) else {
+                    return all;
+                };
+                let of = (&level, shifts, memory);
+                // Clamping is most common, and needs few of the constants that wrapping does.
+                if level.mode == AddressMode::ClampToEdge {
+                    self.sample_packets_filtered::<_, true>(s, of, places, colors)
+                } else {
+                    self.sample_packets_filtered::<_, false>(s, of, places, colors)
+                }
+            }, others => all)
+        })
     }
 
     /// `CLAMPS` says that the mode is to clamp.
@@ -72,13 +93,12 @@ impl SampledTexture {
     fn sample_packets_filtered<S: SimdLanes, const CLAMPS: bool>(
         &self,
         s: S,
-        (level, shifts): (&BlockLevel<'_, S>, &TapShifts),
+        (level, shifts, memory): (&BlockLevel<'_, S>, &TapShifts, &mut Places),
         places: &PacketPlaces<'_>,
         colors: &mut [Answers],
     ) -> OtherTaps {
         let mut others = OtherTaps::default();
-        let mut spots = [Spot::default(); MOST_SPOTS];
-        let mut found = [Found::default(); MOST_TAPS];
+        let Places { spots, found } = memory;
         let mut lines = [level.lengths; MOST_LINES + 1];
         let mut coordinates = places.each();
         let taps = shifts.of_taps().len();
@@ -92,14 +112,14 @@ impl SampledTexture {
         let mut packets = colors.chunks_exact_mut(taps).zip(&mut others);
         loop {
             let mut count = 0;
-            for (spots, found) in spots.chunks_exact_mut(shifts.spot_count).zip(&mut found) {
+            for (spots, found) in spots.chunks_exact_mut(shifts.spot_count).zip(&mut *found) {
                 let Some(uv) = coordinates.next() else {
                     break;
                 };
                 level.find_all::<CLAMPS>(s, uv, shifts, (spots, found));
                 count += 1;
             }
-            let of_packets = spots.chunks_exact(shifts.spot_count).zip(&found);
+            let of_packets = spots.chunks_exact(shifts.spot_count).zip(&*found);
             for (of_packet, (colors, others)) in of_packets.take(count).zip(&mut packets) {
                 ahead.step(s);
                 *others = level.filter_all::<CLAMPS>(s, shifts, of_packet, colors, &mut lines);
@@ -112,7 +132,7 @@ impl SampledTexture {
 }
 
 /// The lanes of a packet's columns and rows whose texels have neighbours.
-#[derive(Clone, Copy, Default)]
+#[derive(Clone, Copy)]
 struct Found {
     /// True if all texels have a neighbour in the level.
     is_inside: bool,
@@ -127,6 +147,12 @@ const COLUMNS: u16 = 0xF;
 const ROWS: u16 = 0xF0;
 
 impl Found {
+    const NONE: Self = Self {
+        is_inside: false,
+        has_next: [0; MOST_TAPS],
+        neighbours: [0; MOST_TAPS],
+    };
+
     /// True if the texels of a row, of which a tap has the number, have a neighbour.
     #[inline(always)]
     fn is_inside(&self, row: usize) -> bool {
