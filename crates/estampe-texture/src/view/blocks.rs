@@ -9,8 +9,8 @@ use estampe_simd::{
     Bytes, LANE_X, LANE_Y, LANES, Lanes as SimdLanes, Level, Packet, SimdBase, dispatch, f32x16,
     i32x16, mask32x16, u32x4, u32x16,
 };
-use estampe_types::ViewDimension;
 use estampe_types::morton::{compact, spread};
+use estampe_types::{Real, ViewDimension};
 
 impl TexelView {
     /// Fetches the texels of several textures at the same places (x, y) of a level. `false` unless
@@ -22,36 +22,57 @@ impl TexelView {
         [x, y, mips]: [&Packet<i32>; 3],
         texels: &mut [Answers],
     ) -> bool {
-        let Some((first, others)) = views.split_first() else {
+        let mip = usize::try_from(mips.0[0]).ok();
+        let Some((mip, sides)) = mip.and_then(|mip| Some((mip, sides_of(views, mip)?))) else {
             return false;
         };
-        let sides = |view: &Self| {
-            let plane = view.planes.get(usize::try_from(mips.0[0]).ok()?)?;
-            view.has_blocks().then_some(plane.sides)
-        };
-        let Some(of_first) = sides(first).filter(|_| mips.is_uniform()) else {
-            return false;
-        };
-        if !others.iter().all(|other| sides(other) == Some(of_first)) {
+        if !mips.is_uniform() {
             return false;
         }
         dispatch!(@specialized_move level, s => {
-            let Some(at) = first_of_block(s, [x, y], of_first) else {
-                return false;
-            };
-            let ahead = blocks_ahead([x.0[0], y.0[0]], AHEAD);
-            for (view, texels) in views.iter().zip(texels) {
-                let plane = &view.planes[mips.0[0].cast_unsigned() as usize];
-                let Some([r, g, b, a]) = view.block_at(s, plane, at) else {
-                    return false;
-                };
-                if let Some(ahead) = ahead {
-                    view.prefetch_blocks(s, plane, ahead);
-                }
-                *texels = [packet(r, 0), packet(g, 0), packet(b, 0), packet(a, 0)];
-            }
-            true
+            let first = [x.0[0], y.0[0]];
+            let lanes = [i32x16::load_array_ref(s, &x.0), i32x16::load_array_ref(s, &y.0)];
+            fetch_block(s, (views, mip, sides), (first, lanes), AHEAD, texels)
         }, others => false)
+    }
+
+    /// Fetches the texels of several textures at the pixels of packets of fragments, as
+    /// [`fetch_blocks`](Self::fetch_blocks) does in the finest level: x, y, z and 1/w of each
+    /// packet are its position in the window, and of each there are as many texels as textures.
+    /// Returns the packets that were not fetched, of which nothing is stored that counts: bit `i`
+    /// is packet `i`.
+    ///
+    /// # Panics
+    /// If there are more packets than bits.
+    pub fn fetch_at_pixels(
+        views: &[&Self],
+        level: Level,
+        positions: &[[Packet<f32>; 4]],
+        texels: &mut [Answers],
+    ) -> u32 {
+        assert!(
+            positions.len() <= u32::BITS as usize,
+            "more packets than bits"
+        );
+        let all = positions.iter().fold(0, |all, _| all << 1 | 1);
+        let Some(sides) = sides_of(views, 0) else {
+            return all;
+        };
+        dispatch!(@specialized_move level, s => {
+            let mut others = 0;
+            let packets = positions.iter().zip(texels.chunks_exact_mut(views.len()));
+            for (at, ([x, y, ..], texels)) in packets.enumerate() {
+                let first = [whole(x.0[0]), whole(y.0[0])];
+                let lanes = [
+                    f32x16::load_array_ref(s, &x.0).to_int_within_range(),
+                    f32x16::load_array_ref(s, &y.0).to_int_within_range(),
+                ];
+                let is_fetched =
+                    fetch_block(s, (views, 0, sides), (first, lanes), BATCH, texels);
+                others |= u32::from(!is_fetched) << at;
+            }
+            others
+        }, others => all)
     }
 
     /// True if blocks of the view's texels can be fetched.
@@ -76,11 +97,15 @@ impl TexelView {
         let texels = &self.texture.texels[..];
         for line in 0..SIDE {
             let begin = first.wrapping_add(line.wrapping_mul(row));
-            // Both blocks lie in one cache line or two.
-            for at in [begin, begin.wrapping_add(2 * SIDE * words - 1)] {
-                if let Some(word) = texels.get(at.cast_unsigned() as usize) {
-                    s.prefetch(word);
-                }
+            if let Some(word) = texels.get(begin.cast_unsigned() as usize) {
+                s.prefetch(word);
+            }
+            // Most often both blocks lie in one cache line, as texels begin at one.
+            let last = begin.wrapping_add(2 * SIDE * words - 1);
+            if last & -LINE != begin & -LINE
+                && let Some(word) = texels.get(last.cast_unsigned() as usize)
+            {
+                s.prefetch(word);
             }
         }
     }
@@ -122,20 +147,68 @@ impl TexelView {
     }
 }
 
-/// The number of the first texel, if the texels at these places are a block inside an image.
+/// The sides of a level of views whose blocks can be fetched together: they are those of all.
+#[inline(always)]
+fn sides_of(views: &[&TexelView], mip: usize) -> Option<[i32; 3]> {
+    let mut all = views.iter();
+    let of = |view: &TexelView| {
+        let plane = view.planes.get(mip)?;
+        view.has_blocks().then_some(plane.sides)
+    };
+    let sides = of(all.next()?)?;
+    all.all(|other| of(other) == Some(sides)).then_some(sides)
+}
+
+/// Fetches a block of several views, and prefetches that which comes so many blocks later. False if
+/// the lanes' places are none, and nothing is stored that counts.
+#[inline(always)]
+fn fetch_block<S: SimdLanes>(
+    s: S,
+    (views, mip, sides): (&[&TexelView], usize, [i32; 3]),
+    (first, lanes): ([i32; 2], [i32x16<S>; 2]),
+    ahead: u32,
+    texels: &mut [Answers],
+) -> bool {
+    let Some(at) = first_of_block(s, (first, lanes), sides) else {
+        return false;
+    };
+    let ahead = blocks_ahead(first, ahead);
+    for (view, texels) in views.iter().zip(texels) {
+        let plane = &view.planes[mip];
+        let Some([r, g, b, a]) = view.block_at(s, plane, at) else {
+            return false;
+        };
+        if let Some(ahead) = ahead {
+            view.prefetch_blocks(s, plane, ahead);
+        }
+        *texels = [packet(r, 0), packet(g, 0), packet(b, 0), packet(a, 0)];
+    }
+    true
+}
+
+/// The whole number towards zero.
+#[inline(always)]
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "positions are in a picture"
+)]
+fn whole(position: f32) -> i32 {
+    position as i32
+}
+
+/// The number of the first texel, if the texels at the places of lanes, of which those of the first
+/// one are given apart, are a block inside an image.
 #[inline(always)]
 fn first_of_block<S: SimdLanes>(
     s: S,
-    [x, y]: [&Packet<i32>; 2],
+    ([left, top], [x, y]): ([i32; 2], [i32x16<S>; 2]),
     [width, height, _]: [i32; 3],
 ) -> Option<i32> {
-    let (left, top) = (x.0[0], y.0[0]);
     let columns: i32x16<S> = u32x16::load_array(s, COLUMNS).bitcast();
     let rows: i32x16<S> = u32x16::load_array(s, ROWS).bitcast();
     let columns = columns + <i32x16<S> as SimdBase<S>>::splat(s, left);
     let rows = rows + <i32x16<S> as SimdBase<S>>::splat(s, top);
-    let is_column = i32x16::load_array_ref(s, &x.0).simd_eq(columns);
-    let is_row = i32x16::load_array_ref(s, &y.0).simd_eq(rows);
+    let (is_column, is_row) = (x.simd_eq(columns), y.simd_eq(rows));
     let is_block: mask32x16<S> = is_column & is_row;
     let is_inside = left >= 0 && top >= 0 && left <= width - SIDE && top <= height - SIDE;
     (is_inside && s.bits_of_mask(is_block) == u16::MAX).then(|| top * width + left)
@@ -203,6 +276,11 @@ const SIDE: i32 = 4;
 
 /// How many blocks before it is fetched a block is prefetched.
 const AHEAD: u32 = 4;
+/// The same where the blocks of a batch of packets are fetched one after the other.
+const BATCH: u32 = 16;
+
+/// The words of a cache line.
+const LINE: i32 = 64 / 4;
 
 /// The blocks of a row of a tile.
 const TILE: u32 = 16;

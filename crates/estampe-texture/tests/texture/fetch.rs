@@ -161,6 +161,60 @@ fn blocks_of_several_textures_are_those_of_each() {
     }
 }
 
+/// At the pixels of fragments, packet by packet: those that are blocks.
+#[test]
+fn texels_at_pixels_are_those_of_blocks() {
+    let mut random = Random::new(36);
+    let mut of = |format| view_of(format, ViewDimension::D2, &mut random).expect("a 2D format");
+    let views = [TextureFormat::Rgba16Float, TextureFormat::Depth32Float].map(&mut of);
+    let views = views.each_ref();
+    let other = of(TextureFormat::Rgb10a2Unorm);
+    // Level 0 has 8×8 texels.
+    let pixels: Vec<[f32; 2]> = (0..19_u8)
+        .map(|at| [at * 3 % 11, at * 5 % 7].map(f32::from))
+        .collect();
+    let positions: Vec<[Packet<f32>; 4]> = (pixels.iter().enumerate())
+        .map(|(at, [x, y])| {
+            let axis = |first: f32, lanes: [u8; LANES]| {
+                Packet(lanes.map(|lane| first + f32::from(lane) + 0.5))
+            };
+            let mut position = [axis(*x, LANE_X), axis(*y, LANE_Y), Packet::default()];
+            if at == 7 {
+                position[0].0[5] += 1.0;
+            }
+            let [x, y, z] = position;
+            [x, y, z, z]
+        })
+        .collect();
+    for level in Level::all_available() {
+        let mut texels = vec![[Packet([7.0; LANES]); 4]; 2 * positions.len()];
+        let others = TexelView::fetch_at_pixels(&views, level, &positions, &mut texels);
+        let has_halves = matches!(level.name(), "avx2" | "avx512");
+        for (at, ([x, y], texels)) in pixels.iter().zip(texels.chunks(2)).enumerate() {
+            let is_block = *x <= 4.0 && *y <= 4.0 && at != 7;
+            assert_eq!(
+                others >> at & 1 == 0,
+                has_halves && is_block,
+                "{level:?} {at}"
+            );
+            for (view, texels) in views.iter().zip(texels).filter(|_| others >> at & 1 == 0) {
+                for lane in 0..LANES {
+                    let places = [positions[at][0], positions[at][1]];
+                    #[expect(clippy::cast_possible_truncation, reason = "small positions")]
+                    let [x, y] = places.map(|place| place.0[lane] as i32);
+                    let expected = crate::array(view.fetch([x, y, 0], 0, 0));
+                    let got = texels.each_ref().map(|channel| channel.0[lane].to_bits());
+                    assert_eq!(got, expected.map(f32::to_bits), "{level:?} ({x}, {y})");
+                }
+            }
+        }
+        let views = [views[0], &other];
+        let others = TexelView::fetch_at_pixels(&views, level, &positions, &mut texels);
+        assert_eq!(others, (1 << positions.len()) - 1);
+        assert_eq!(TexelView::fetch_at_pixels(&views, level, &[], &mut []), 0);
+    }
+}
+
 #[test]
 fn packets_with_different_levels_are_fetched_one_by_one() {
     let mut random = Random::new(32);
