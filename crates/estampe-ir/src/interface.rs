@@ -37,8 +37,8 @@ pub enum Input {
         axis: Axis,
     },
     /// A component (0 to 3) of what a non-dependent texture read gives, by its number: a sample
-    /// whose operands are inputs, or inputs and uniform shifts, which is made before the kernel
-    /// runs.
+    /// whose operands are inputs, or inputs and uniform shifts, or a load at the pixel itself; both
+    /// are made before the kernel runs.
     TextureRead {
         /// The read.
         read: u32,

@@ -13,6 +13,7 @@ mod layouts;
 mod link;
 mod machine;
 mod nondependent;
+mod pixel_loads;
 mod read_place;
 mod samples;
 mod stage;
@@ -35,6 +36,7 @@ use estampe_types::{
 };
 use facts::Facts;
 use link::Links;
+use nondependent::Fragments;
 use stage::Stage;
 use uniforms::Sources;
 
@@ -134,6 +136,13 @@ impl TextProgram {
             .map_or(0, |stage| stage.reads().count())
     }
 
+    /// True if the colours of fragments are the texels of a texture read as they are, so that the
+    /// read is all that is done for a batch.
+    #[must_use]
+    pub fn passes_texels(&self) -> bool {
+        self.fragment.as_ref().is_some_and(Stage::passes_texels)
+    }
+
     /// The same without machine code: the interpreter runs it at every level.
     #[must_use]
     pub fn interpreted(mut self) -> Self {
@@ -201,17 +210,23 @@ impl Program for TextProgram {
         }
         let (buffers, textures) = (stage.buffers(bindings), stage.textures(bindings));
         let places = (self.widths, &bindings.immediates[..]);
-        let scalars = (
-            batch.varyings,
-            self.widths.fragment_scalars(),
-            batch.coverage.len(),
-        );
+        let fragments = Fragments {
+            level,
+            scalars: batch.varyings,
+            stride: self.widths.fragment_scalars(),
+            positions: batch.positions,
+            packets: batch.coverage.len(),
+        };
         let sources = Sources {
             textures: &textures,
             buffers: buffers.all(),
             immediates: &bindings.immediates,
         };
-        let run = stage.reads().with_texels(sources, scalars, |texels| {
+        if stage.passes_texels() {
+            stage.reads().sample_into(sources, fragments, batch.colors);
+            return;
+        }
+        let run = stage.reads().with_texels(sources, fragments, |texels| {
             let batch = (batch, texels);
             with_fragments(stage, places, batch, |packets, inputs, outputs| {
                 stage.run(

@@ -8,20 +8,23 @@
 //! read where the pipeline put them, texels are inputs of the shader like others, and no register
 //! is saved around a call. Of the samples in the shader's code each packet's is a call.
 //!
-//! So are samples at uniform shifts from varyings, which are [filters](super::taps).
+//! So are samples at uniform shifts from varyings, which are [filters](super::taps), and
+//! [loads at the pixel itself](super::pixel_loads).
 //!
 //! Only samples in the outermost body are taken, which every invocation makes. They are numbered by
-//! groups: those of a group are at the same place, or are the taps of one filter.
+//! groups: those of a group are at the same place, or are the taps of one filter; the loads are the
+//! last group.
 
 use super::batch::Widths;
+use super::pixel_loads;
 use super::read_place::{MOST, Place, Read, found};
 use super::taps::{Filter, Shift};
 use super::textures::BoundTextures;
 use super::uniforms::{Finder, Sources, Uniforms};
-use estampe_ir::interface::{Input, Interface};
+use estampe_ir::interface::{Input, Interface, Output};
 use estampe_ir::tree::{Node, Tree, passes};
 use estampe_ir::{Op, Value};
-use estampe_simd::Packet;
+use estampe_simd::{Level, Packet};
 use estampe_texture::{PacketLod, PacketRequest, SampledTexture, TapShifts};
 use std::cell::Cell;
 use std::collections::HashMap;
@@ -32,6 +35,19 @@ pub(super) const CHANNELS: usize = 4;
 thread_local! {
     /// The memory of the last batch.
     static MEMORY: Cell<Memory> = Cell::default();
+}
+
+/// The inputs of a batch of fragments that reads depend on.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Fragments<'a> {
+    /// The SIMD level.
+    pub(super) level: Level,
+    /// The scalars of varyings and their derivatives, `stride` of each packet.
+    pub(super) scalars: &'a [Packet<f32>],
+    pub(super) stride: usize,
+    /// x, y, z and 1/w in the window, if the shader reads them.
+    pub(super) positions: &'a [Packet<f32>],
+    pub(super) packets: usize,
 }
 
 /// Results for a batch, in memory that the next one uses again.
@@ -50,9 +66,13 @@ pub(super) struct Reads {
     groups: Vec<Group>,
     /// After the groups.
     filters: Vec<Filter>,
+    /// After the filters: the positions in the interface of the textures that are loaded from at
+    /// the pixel.
+    loads: Vec<u32>,
     /// The shifts of filters.
     uniforms: Uniforms,
-    /// For each group, and then each filter: the number of its first read, and how many it has.
+    /// For each group, each filter, and then the loads, if there are any: the number of its first
+    /// read, and how many it has.
     spans: Vec<[usize; 2]>,
     /// For each read, the number of its span and its place there.
     of_read: Vec<(usize, usize)>,
@@ -71,10 +91,14 @@ impl Reads {
     /// varyings that have derivatives, in ascending order.
     pub(super) fn take(tree: &mut Tree, widths: Widths, gradients: &[usize]) -> Self {
         let found = found(tree, widths, gradients);
-        if found.is_empty() {
+        let loads = pixel_loads::found(tree, MOST - found.len());
+        if found.is_empty() && loads.is_empty() {
             return Self::default();
         }
-        let mut reads = Self::default();
+        let mut reads = Self {
+            loads: loads.iter().map(|load| load.texture).collect(),
+            ..Self::default()
+        };
         // Of each read, its group and its place there; those of filters come after the others.
         let mut places = Vec::new();
         let mut uniforms = Finder::new(tree);
@@ -94,7 +118,8 @@ impl Reads {
         reads.uniforms = uniforms.finish();
         let groups = reads.groups.iter().map(|group| group.textures.len());
         let filters = reads.filters.iter().map(|filter| filter.shifts.len());
-        for (span, count) in groups.chain(filters).enumerate() {
+        let loaded = Some(loads.len()).filter(|count| *count > 0);
+        for (span, count) in groups.chain(filters).chain(loaded).enumerate() {
             reads.spans.push([reads.of_read.len(), count]);
             reads.of_read.extend((0..count).map(|at| (span, at)));
         }
@@ -104,15 +129,10 @@ impl Reads {
             let [first, _] = reads.spans[before + group];
             numbers.insert(read.first, first + at);
         }
+        let first_load = reads.of_read.len() - loads.len();
+        numbers.extend((loads.iter().map(|load| load.first)).zip(first_load..));
         let body = std::mem::take(&mut tree.body);
-        for node in body {
-            match node {
-                Node::Op { first, .. } if numbers.contains_key(&first) => {
-                    push_inputs(tree, numbers[&first], first);
-                }
-                node => tree.body.push(node),
-            }
-        }
+        tree.body = with_inputs(&mut tree.interface, body, &numbers);
         passes::dead_code(tree);
         passes::unused_inputs(tree);
         reads
@@ -163,7 +183,37 @@ impl Reads {
     pub(super) fn are_of(&self, texture: u32) -> bool {
         let groups = self.groups.iter().flat_map(|group| &group.textures);
         let filters = self.filters.iter().map(|filter| &filter.texture);
-        groups.chain(filters).any(|[of, _]| *of == texture)
+        groups.chain(filters).any(|[of, _]| *of == texture) || self.loads.contains(&texture)
+    }
+
+    /// True if all that a tree does, out of which these reads were taken, is to give the texels of
+    /// the only one as its colour.
+    pub(super) fn are_colors(&self, tree: &Tree) -> bool {
+        let mut inputs = HashMap::new();
+        for node in &tree.body {
+            let Node::Op {
+                op: Op::Input(at) | Op::InputMask(at),
+                first,
+            } = node
+            else {
+                return false;
+            };
+            inputs.insert(*first, tree.interface.inputs[*at as usize]);
+        }
+        let outputs = || tree.interface.outputs.iter().zip(&tree.outputs);
+        let is_passed = |(output, value): (&Output, &Value)| {
+            let expected = match *output {
+                Output::Color {
+                    target: 0,
+                    component,
+                } => Input::TextureRead { read: 0, component },
+                Output::Cover => Input::Cover,
+                _ => return false,
+            };
+            inputs.get(value) == Some(&expected)
+        };
+        let colors = outputs().filter(|(output, _)| **output != Output::Cover);
+        self.of_read.len() == 1 && colors.count() == CHANNELS && outputs().all(is_passed)
     }
 
     /// The span of a read, and where a component is among those of a packet there.
@@ -181,41 +231,63 @@ impl Reads {
         (first * packets * CHANNELS, count * CHANNELS)
     }
 
-    /// Makes all reads of so many packets, each of which has `stride` scalars. Gives the texels, of
-    /// which [`place`](Self::place) tells where they are, to `then`.
+    /// Makes all reads of a batch. Gives the texels, of which [`place`](Self::place) tells where
+    /// they are, to `then`.
     pub(super) fn with_texels<T>(
         &self,
         sources: Sources<'_>,
-        (scalars, stride, packets): (&[Packet<f32>], usize, usize),
+        fragments: Fragments<'_>,
         then: impl FnOnce(&[Packet<f32>]) -> T,
     ) -> T {
         if self.of_read.is_empty() {
             return then(&[]);
         }
         let mut memory = MEMORY.take();
-        let needed = self.of_read.len() * packets * CHANNELS;
-        if memory.texels.len() < needed {
-            memory.texels.resize(needed, Packet::default());
+        let needed = self.of_read.len() * fragments.packets * CHANNELS;
+        let mut texels = std::mem::take(&mut memory.texels);
+        if texels.len() < needed {
+            texels.resize(needed, Packet::default());
         }
+        self.sample(sources, fragments, &mut memory, &mut texels);
+        let result = then(&texels);
+        memory.texels = texels;
+        MEMORY.set(memory);
+        result
+    }
+
+    /// Makes the reads of a batch; the texels go where they are told.
+    pub(super) fn sample_into(
+        &self,
+        sources: Sources<'_>,
+        fragments: Fragments<'_>,
+        texels: &mut [Packet<f32>],
+    ) {
+        let mut memory = MEMORY.take();
+        self.sample(sources, fragments, &mut memory, texels);
+        MEMORY.set(memory);
+    }
+
+    fn sample(
+        &self,
+        sources: Sources<'_>,
+        fragments: Fragments<'_>,
+        memory: &mut Memory,
+        texels: &mut [Packet<f32>],
+    ) {
         if memory.shifts.len() < self.filters.len() {
             memory
                 .shifts
                 .resize(self.filters.len(), TapShifts::UNSHIFTED);
         }
         self.uniforms.compute(sources, &mut memory.values);
-        self.sample(sources.textures, (scalars, stride, packets), &mut memory);
-        let result = then(&memory.texels);
-        MEMORY.set(memory);
-        result
-    }
-
-    fn sample(
-        &self,
-        textures: &BoundTextures<'_>,
-        (scalars, stride, packets): (&[Packet<f32>], usize, usize),
-        memory: &mut Memory,
-    ) {
-        let (mut left, _) = memory.texels.as_chunks_mut::<CHANNELS>();
+        let textures = sources.textures;
+        let Fragments {
+            scalars,
+            stride,
+            packets,
+            ..
+        } = fragments;
+        let (mut left, _) = texels.as_chunks_mut::<CHANNELS>();
         for group in &self.groups {
             let count = packets * group.textures.len();
             let Some((texels, others)) = left.split_at_mut_checked(count) else {
@@ -231,6 +303,10 @@ impl Reads {
             };
             left = others;
             filter.sample((textures, &memory.values), known, (scalars, stride), texels);
+        }
+        if !self.loads.is_empty() {
+            let (positions, _) = fragments.positions.as_chunks();
+            textures.load_at_pixels(fragments.level, &self.loads, positions, left);
         }
     }
 }
@@ -295,16 +371,43 @@ impl Group {
     }
 }
 
+/// A body in which reads, whose numbers are given by their first results, are inputs.
+fn with_inputs(
+    interface: &mut Interface,
+    body: Vec<Node>,
+    numbers: &HashMap<Value, usize>,
+) -> Vec<Node> {
+    let mut nodes = Vec::with_capacity(body.len());
+    for node in body {
+        match node {
+            Node::Op { first, .. } if numbers.contains_key(&first) => {
+                push_inputs((interface, &mut nodes), numbers[&first], first);
+            }
+            Node::Block {
+                label,
+                results,
+                body,
+            } => nodes.push(Node::Block {
+                label,
+                results,
+                body: with_inputs(interface, body, numbers),
+            }),
+            node => nodes.push(node),
+        }
+    }
+    nodes
+}
+
 /// Reads a read's texel: inputs in place of the results of the sample.
-fn push_inputs(tree: &mut Tree, read: usize, first: Value) {
+fn push_inputs((interface, nodes): (&mut Interface, &mut Vec<Node>), read: usize, first: Value) {
     let number = |count: usize| u32::try_from(count).expect("a tree of fewer than 2^32 values");
-    let Interface { inputs, .. } = &mut tree.interface;
+    let Interface { inputs, .. } = interface;
     for (component, first) in (0..).zip(first.and_next(CHANNELS)) {
         let op = Op::Input(number(inputs.len()));
         inputs.push(Input::TextureRead {
             read: number(read),
             component,
         });
-        tree.body.push(Node::Op { op, first });
+        nodes.push(Node::Op { op, first });
     }
 }

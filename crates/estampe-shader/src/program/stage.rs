@@ -28,6 +28,8 @@ pub(super) struct Stage {
     kernel: Kernel,
     /// The texture reads that are made before the kernel runs.
     reads: Reads,
+    /// The kernel's colours are the texels of its only read: nothing is left to run.
+    passes_texels: bool,
     inputs: Ends<Source>,
     outputs: Ends<Target>,
     machine: MachineCode,
@@ -45,6 +47,7 @@ impl Stage {
         Self {
             kernel: Kernel::from_tree(tree),
             reads: Reads::default(),
+            passes_texels: false,
             inputs: Ends::default(),
             outputs: Ends::default(),
             machine: MachineCode::default(),
@@ -88,6 +91,7 @@ impl Stage {
         Self {
             inputs: Ends::<Source>::of_fragments(inputs, &reads, (widths, gradients)),
             outputs: Ends::<Target>::of_fragments(outputs, widths),
+            passes_texels: widths.colors == 1 && reads.are_colors(&tree),
             reads,
             ..stage
         }
@@ -106,6 +110,11 @@ impl Stage {
     /// The texture reads that are made before the kernel runs.
     pub(super) fn reads(&self) -> &Reads {
         &self.reads
+    }
+
+    /// True if the colours of fragments are the texels of the only read, so that no run is needed.
+    pub(super) fn passes_texels(&self) -> bool {
+        self.passes_texels
     }
 
     /// Runs by bytecode from now on.
@@ -149,6 +158,9 @@ impl Stage {
         ops.any(|(op, _)| is_read(op)) || at.is_some_and(|at| self.reads.are_of(at))
     }
 
+    /// Runs so many packets. Inlined, because pairs of arguments in memory are read before they
+    /// have arrived there.
+    #[inline(always)]
     pub(super) fn run(
         &self,
         level: Level,
@@ -171,7 +183,12 @@ impl Stage {
         {
             return stopped;
         }
+        self.run_bytecode(level, &run)
+    }
+
+    #[inline(never)]
+    fn run_bytecode(&self, level: Level, run: &Run<'_>) -> Result<(), Stopped> {
         let code = self.bytecode.get_or_init(|| Code::new(&self.kernel));
-        SCRATCH.with_borrow_mut(|scratch| code.run(level, &run, scratch))
+        SCRATCH.with_borrow_mut(|scratch| code.run(level, run, scratch))
     }
 }

@@ -76,7 +76,8 @@ impl<'a> BoundTextures<'a> {
         }
     }
 
-    fn loaded(&self, texture: u32) -> Option<&'a TexelView> {
+    /// The view of a texture; `None` for one that shaders store to.
+    pub(super) fn loaded(&self, texture: u32) -> Option<&'a TexelView> {
         let found = self.loaded.get(texture as usize)?.get_or_init(|| {
             let &TextureSlot { group, binding } = self.textures.get(texture as usize)?;
             let stored = self.bindings.storage_texture(group, binding);
@@ -259,24 +260,34 @@ impl BoundTextures<'_> {
 
     #[inline(always)]
     fn load<S: Lanes>(&self, s: S, access: &mut TextureAccess<'_>) {
-        let (group, binding) = self.slot(access);
         for packet in 0..access.packets {
             let at = texel(s, access, packet);
-            let texel = match self.bindings.storage_texture(group, binding) {
-                Some(texture) => storage_load(texture, at),
-                None => {
-                    let zero = <i32x16<S> as SimdBase<S>>::splat(s, 0);
-                    let ints = |words: Option<&[Packet<u32>]>| {
-                        words.map_or(zero, |words| ints(s, words, packet))
-                    };
-                    let level = ints(access.level_of_detail());
-                    let sample = ints(access.sample());
-                    self.bindings
-                        .texture(group, binding)
-                        .fetch(at, level, sample)
-                }
-            };
+            let zero = <i32x16<S> as SimdBase<S>>::splat(s, 0);
+            let ints =
+                |words: Option<&[Packet<u32>]>| words.map_or(zero, |words| ints(s, words, packet));
+            let level = ints(access.level_of_detail());
+            let sample = ints(access.sample());
+            let texel = self.fetch(access.op.texture, at, level, sample);
             set(access, packet, [texel.x, texel.y, texel.z, texel.w]);
+        }
+    }
+
+    /// The texels of a texture at any places, of a level and a sample.
+    #[inline(always)]
+    pub(super) fn fetch<S: Lanes>(
+        &self,
+        texture: u32,
+        at: [i32x16<S>; 3],
+        level: i32x16<S>,
+        sample: i32x16<S>,
+    ) -> Vec4<f32x16<S>> {
+        let (group, binding) = self.slot_of(texture);
+        match self.bindings.storage_texture(group, binding) {
+            Some(texture) => storage_load(texture, at),
+            None => {
+                let texture = self.bindings.texture(group, binding);
+                texture.fetch(at, level, sample)
+            }
         }
     }
 

@@ -3,6 +3,7 @@
 mod filters;
 mod linking;
 mod nondependent;
+mod pixel_loads;
 mod rewriting;
 mod running;
 

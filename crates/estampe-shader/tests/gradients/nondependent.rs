@@ -57,6 +57,77 @@ fn other_samples_stay_in_the_code() {
     }
 }
 
+#[test]
+fn shaders_that_return_a_sample_pass_its_texels() {
+    for (expected, statements) in [
+        (true, "return textureSample(map, s, in.uv);"),
+        (
+            true,
+            "return textureSampleLevel(halves, s, in.uv + numbers.xy, 0.0);",
+        ),
+        (
+            true,
+            "let color = textureSample(layers, s, in.uv, in.layer);
+            return vec4f(color.r, color.g, color.b, color.a);",
+        ),
+        (false, "return textureSample(map, s, in.uv).rgba.bgra;"),
+        (
+            false,
+            "return vec4f(textureSample(map, s, in.uv).rgb, 1.0);",
+        ),
+        (false, "return textureSample(map, s, in.uv) * 2.0;"),
+        (false, "return textureSample(map, s, in.uv * 2.0);"),
+        (
+            false,
+            "if in.uv.x > 0.5 { discard; } return textureSampleLevel(map, s, in.uv, 0.0);",
+        ),
+        (
+            false,
+            "let color = textureSample(map, s, in.uv);
+            return vec4f(color.rg, textureSample(other, s, in.uv).ba);",
+        ),
+        (false, "return in.uv.xyxy;"),
+    ] {
+        assert_eq!(
+            program(statements).passes_texels(),
+            expected,
+            "{statements}"
+        );
+    }
+}
+
+/// The texels of a read are the colours, of one packet and of more than a batch.
+#[test]
+fn passed_texels_have_the_bits_of_those_that_the_code_returns() {
+    for of in [
+        "map, s, AT, 0.0",
+        "halves, s, AT, 0.0",
+        "layers, s, AT, in.layer, 0.0",
+    ] {
+        let shader = |at: &str| {
+            let of = of.replace("AT", at);
+            format!(
+                "let one = min(abs(in.uv.x) + 1.0, 1.0);
+                return textureSampleLevel({of});"
+            )
+        };
+        let before = program(&shader("in.uv"));
+        let in_code = program(&shader("(in.uv * one)"));
+        assert!(before.passes_texels() && !in_code.passes_texels(), "{of}");
+        for sampler in samplers() {
+            let textures = Textures::new(sampler);
+            for level in Level::all_available() {
+                let bindings = textures.bindings(level);
+                let context = (level, &bindings);
+                assert!(
+                    colors(&before, context) == colors(&in_code, context),
+                    "{of}"
+                );
+            }
+        }
+    }
+}
+
 /// The colours of packets with random scalars.
 fn colors(program: &TextProgram, (level, bindings): (Level, &Bindings)) -> Vec<Packet<f32>> {
     const PACKETS: usize = 19;
