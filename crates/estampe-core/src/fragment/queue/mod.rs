@@ -5,12 +5,16 @@
 //! A packet is sixteen pixels of one primitive, or four quads of any primitives that share a
 //! pipeline, or, of shaders without derivatives, sixteen pixels of different small triangles.
 
+mod capacity;
 mod pixels;
 mod quads;
 mod shaded;
 mod shared;
 mod survivors;
 
+use capacity::CAPACITY;
+
+pub(crate) use capacity::{PACKETS_OF_VISIBILITY, packets_in_order};
 pub(crate) use pixels::PixelPacket;
 pub(crate) use quads::QuadPlace;
 pub(crate) use shaded::{LatePacket, ShadedBatch, depth_after_shading};
@@ -25,9 +29,6 @@ use crate::raster::{Covered, SampleSet};
 use estampe_simd::{LANE_X, LANE_Y, LANES, Lanes, Level, Packet, SimdBase, outline};
 use estampe_types::shader::{DepthOutput, Sampling};
 use estampe_types::{Bindings, FragmentBatch};
-
-/// Packets that are shaded in one call.
-pub(crate) const CAPACITY: usize = 16;
 
 /// A packet of one primitive to be queued.
 #[derive(Debug, Clone, Copy)]
@@ -47,6 +48,8 @@ pub(crate) struct PrimitivePacket<const N: usize> {
 #[derive(Debug)]
 pub(crate) struct FragmentQueue<const N: usize> {
     samples: SampleSet<N>,
+    /// Packets that are shaded in one call, [`CAPACITY`] at most.
+    room: usize,
     len: usize,
     /// The packets that the program is run for: fewer than are queued, where some share their
     /// colours.
@@ -107,6 +110,7 @@ impl<const N: usize> Default for FragmentQueue<N> {
     fn default() -> Self {
         Self {
             samples: SampleSet::new(N),
+            room: CAPACITY,
             len: 0,
             shaded_len: 0,
             shaded_of: [0; CAPACITY],
@@ -140,18 +144,20 @@ impl<const N: usize> Default for FragmentQueue<N> {
 }
 
 impl<const N: usize> FragmentQueue<N> {
-    /// Gets ready for a pipeline's packets. The queue must be empty. `tests_late` says that samples
-    /// are tested after shading, so that their depths are kept.
+    /// Gets ready for a pipeline's packets, of which `room` are shaded in one call. The queue must
+    /// be empty. `tests_late` says that samples are tested after shading, so that their depths are
+    /// kept.
     pub(crate) fn configure(
         &mut self,
         pipeline: &RenderPipeline,
         samples: SampleSet<N>,
         depth_range: [f32; 2],
-        tests_late: bool,
+        (tests_late, room): (bool, usize),
     ) {
         let interface = pipeline.interface();
         debug_assert_eq!(self.len, 0, "packets of another pipeline are still queued");
         self.samples = samples;
+        self.room = room;
         self.open = None;
         self.open_pixels = None;
         self.scalars = interface.fragment_scalars();
@@ -198,7 +204,7 @@ impl<const N: usize> FragmentQueue<N> {
 
     #[inline(always)]
     pub(crate) fn is_full(&self) -> bool {
-        self.len >= CAPACITY
+        self.len >= self.room
     }
 
     /// Returns true if there is no room for another quad.

@@ -50,6 +50,7 @@ use crate::fragment::interpolate::{
     VaryingSource, set_planes,
 };
 use crate::fragment::last_packet::LastPacket;
+use crate::fragment::queue::packets_in_order;
 use crate::per_sample::hiz::{BlockClasses, HizQuery};
 use crate::per_sample::source_over::Layers;
 use crate::plan::tile_plan::{TestTiming, TilePlan};
@@ -200,6 +201,7 @@ fn begin_queue<const N: usize>(
     let samples = SampleSet::new(work.samples);
     let range = plan.tests.stored.range;
     let tests_late = plan.timing != TestTiming::Early && !plan.tests.is_empty();
+    let room = packets_in_order(pipeline.interface());
     scratch.in_order.list.set_samples(samples);
     if let Some([_, sub_draw]) = scratch.in_order.waiting
         && pass.plans[sub_draw as usize].queues_like(plan)
@@ -210,7 +212,7 @@ fn begin_queue<const N: usize>(
     finish(pass, job, scratch);
     scratch
         .queue
-        .configure(pipeline, samples, range, tests_late);
+        .configure(pipeline, samples, range, (tests_late, room));
     if pipeline.interface().stores {
         // Colours may depend on what it stores.
         scratch.in_order.solid_colors.clear();
@@ -218,7 +220,7 @@ fn begin_queue<const N: usize>(
     if gathers(plan) {
         scratch
             .solid_queue
-            .configure(pipeline, samples, range, tests_late);
+            .configure(pipeline, samples, range, (tests_late, room));
         let colors = &mut scratch.in_order.solid_colors;
         let before = colors.sub_draw().map(|of| &pass.plans[of as usize]);
         if pipeline.key().color_passthrough {

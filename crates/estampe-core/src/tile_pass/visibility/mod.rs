@@ -39,6 +39,7 @@ mod writer;
 
 use super::{TileJob, TilePass, TileScratch, TileWork, clear_blocks};
 use crate::bounds::bins::BinEntry;
+use crate::fragment::queue::PACKETS_OF_VISIBILITY;
 use crate::raster::CoverageList;
 use crate::raster::packet_edges::PacketEdges;
 use crate::raster::pixel_list::PixelList;
@@ -135,7 +136,12 @@ pub(super) fn add<const N: usize>(
     if plan.path == TilePath::VisibilityCrossTriangle {
         let range = plan.tests.stored.range;
         let queue = &mut scratch.queue;
-        queue.configure(plan.pipeline, pass.sample_set(), range, false);
+        queue.configure(
+            plan.pipeline,
+            pass.sample_set(),
+            range,
+            (false, PACKETS_OF_VISIBILITY),
+        );
     }
     rasterize::rasterize(pass, (work, entries), first, (job, ahead), scratch);
 }

@@ -23,7 +23,7 @@ use super::shortcuts::PrimitiveTexels;
 use super::writer::IdStorage;
 use super::{ONLY_WIDE, VisibilityScratch};
 use crate::fragment::cross_triangle::CrossPlanes;
-use crate::fragment::queue::PrimitivePacket;
+use crate::fragment::queue::{PACKETS_OF_VISIBILITY, PrimitivePacket};
 use crate::pipeline::RenderPipeline;
 use crate::pipeline::color_target::ColorTarget;
 use crate::plan::tile_plan::TilePlan;
@@ -230,7 +230,7 @@ impl<'a, 'j, 't, const N: usize> Resolver<'a, 'j, 't, N> {
             self.plan.pipeline,
             self.samples,
             self.plan.tests.stored.range,
-            false,
+            (false, PACKETS_OF_VISIBILITY),
         );
         let level = self.pass.level;
         dispatch!(@wide level, s => self.packets(s, group, packets),

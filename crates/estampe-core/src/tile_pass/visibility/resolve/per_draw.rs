@@ -8,6 +8,7 @@
 use super::ids::lanes_in;
 use super::per_primitive::store_texels;
 use super::{IdStorage, Resolver, ShadingGroup};
+use crate::fragment::queue::PACKETS_OF_VISIBILITY;
 use crate::per_sample::color_writer::ColorWriter;
 use crate::pipeline::color_target::MAX_WORDS;
 use crate::raster::Covered;
@@ -171,7 +172,12 @@ impl<const N: usize> Resolver<'_, '_, '_, N> {
             return None;
         }
         if !self.shaded_last.is_some_and(|last| last.is_same(pipeline)) {
-            queue.configure(pipeline, self.samples, plan.tests.stored.range, false);
+            queue.configure(
+                pipeline,
+                self.samples,
+                plan.tests.stored.range,
+                (false, PACKETS_OF_VISIBILITY),
+            );
             self.shaded_last = Some(pipeline);
         }
         queue.push_across_triangles(u16::MAX, FRONT_LANES);
