@@ -19,6 +19,7 @@ pub(crate) use pixels::PixelPacket;
 pub(crate) use quads::QuadPlace;
 pub(crate) use shaded::{LatePacket, ShadedBatch, depth_after_shading};
 pub(crate) use shared::replace;
+pub(crate) use survivors::Survivors;
 
 use super::centroid::{centroids, covered_bits};
 use super::interpolate::{Interpolant, PixelOffsets};

@@ -8,99 +8,144 @@
 //!   ·a·· ··b· ···· c·d·   ─▶   abcd
 //! ```
 //!
-//! They keep their order, and no packet holds a pixel twice. A packet opens one more at most, since
-//! its own pixels are different ones: none is moved to a packet behind its own, so all are moved in
-//! place.
+//! They keep their order, and no packet holds a pixel twice. Each kind of value is listed first,
+//! packet after packet, and then taken from the list sixteen by sixteen: no branch depends on how
+//! many are left of a packet, which cannot be predicted.
 
-use super::{CAPACITY, FragmentQueue, replace};
-use crate::fragment::fill::{LANE_NUMBERS, lanes_between, masks_of, samples_of};
+use super::{CAPACITY, FragmentQueue};
+use crate::fragment::fill::{lanes_between, masks_of, samples_of};
 use crate::fragment::last_packet::LastPacket;
 use crate::fragment::place::Place;
 use estampe_simd::{Bytes, LANES, Lanes, Packet, Select, SimdBase, f32x16, u32x16};
 use estampe_types::shader::DepthOutput;
 
-/// Where fragments of a packet go.
-struct Move<S: Lanes> {
-    /// By lane of the packet that they go to: their lane before.
-    order: u32x16<S>,
-    /// The lanes that they go to.
-    lanes: u16,
-    /// True if they are the packet's first.
-    is_first: bool,
+/// Values in a list: those of all fragments of a full queue. Sixteen are written at a time, so there
+/// is room behind the last one.
+const ROOM: usize = (CAPACITY + 1) * LANES;
+
+/// The bit beside a fragment's samples that says that its primitive faces the viewer.
+const FRONT: u32 = 1 << 31;
+
+/// The fragments that are left of a batch, in order: memory of one worker.
+#[derive(Debug)]
+#[repr(C, align(64))]
+pub(crate) struct Survivors {
+    /// By packet: its lanes that are left, in ascending order.
+    lanes: [[u32; LANES]; CAPACITY],
+    /// By packet: how many are left of those before.
+    firsts: [usize; CAPACITY],
+    /// How many are left of all.
+    len: usize,
+    /// The pixels where they are, and their samples, one bit each, with [`FRONT`].
+    places: [u32; ROOM],
+    samples: [u32; ROOM],
+    /// One value of each.
+    values: [f32; ROOM],
+    /// By packet that they are moved to: its first fragment.
+    begins: [usize; CAPACITY],
+    /// The pixels of that packet.
+    pixels: LastPacket,
 }
 
-impl<S: Lanes> Move<S> {
-    /// Moves their values, of which each packet has some.
-    #[inline(always)]
-    fn packets(&self, s: S, packets: &mut [Packet<f32>], each: usize, [from, to]: [usize; 2]) {
-        for number in 0..each {
-            let values = f32x16::load_array_ref(s, &packets[from * each + number].0);
-            let moved = s.permute_f32(values, self.order);
-            let to = &mut packets[to * each + number];
-            if self.is_first {
-                // Lanes that are filled later, or never, may hold anything.
-                moved.store_array(&mut to.0);
-            } else {
-                replace(s, to, self.lanes, moved);
-            }
+impl Default for Survivors {
+    fn default() -> Self {
+        Self {
+            lanes: [[0; LANES]; CAPACITY],
+            firsts: [0; CAPACITY],
+            len: 0,
+            places: [0; ROOM],
+            samples: [0; ROOM],
+            values: [0.0; ROOM],
+            begins: [0; CAPACITY],
+            pixels: LastPacket::default(),
         }
     }
-}
-
-/// The fragments that are left of a batch, in order.
-struct Survivors {
-    /// The pixels where they are, with room to load sixteen anywhere.
-    places: [u32; (CAPACITY + 1) * LANES],
-    /// By packet: their lanes, in ascending order, and how many they are.
-    lanes: [[u32; LANES]; CAPACITY],
-    counts: [usize; CAPACITY],
-    len: usize,
 }
 
 impl Survivors {
-    /// Lists those of packets at some places, given the lanes that are left of each.
+    /// Lists those of packets at some places, given the lanes of each sample that are left, and the
+    /// lanes that face the viewer.
     #[inline(always)]
-    fn list<S: Lanes>(s: S, places: &[Place], left: &[u16; CAPACITY]) -> Self {
-        let mut survivors = Self {
-            places: [0; (CAPACITY + 1) * LANES],
-            lanes: [[0; LANES]; CAPACITY],
-            counts: [0; CAPACITY],
-            len: 0,
-        };
-        let packets = survivors.lanes.iter_mut().zip(&mut survivors.counts);
-        for ((place, left), (lanes, count)) in places.iter().zip(left).zip(packets) {
-            if *left == 0 {
-                continue;
+    fn list<S: Lanes, const N: usize>(
+        &mut self,
+        s: S,
+        places: &[Place],
+        (masks, front): (&[[u16; N]], &[u16]),
+    ) {
+        let splat = |value| <u32x16<S> as SimdBase<S>>::splat(s, value);
+        let mut len = 0;
+        let packets = places.iter().zip(masks).zip(front);
+        let lists = self.lanes.iter_mut().zip(&mut self.firsts);
+        for (((place, masks), front), (lanes, first)) in packets.zip(lists) {
+            let left = masks.iter().fold(0, |any, mask| any | mask);
+            let count = s.list_bits(left, 0, lanes);
+            let order = u32x16::load_array_ref(s, lanes);
+            let is_front = s.mask_from_bits(*front);
+            let samples = samples_of(s, masks, false) | is_front.select(splat(FRONT), splat(0));
+            if let Some(to) = sixteen_mut(&mut self.places, len) {
+                s.permute(place.pixels(s), order).store_array(to);
             }
-            *count = s.list_bits(*left, 0, lanes);
-            let moved = s.permute(place.pixels(s), u32x16::load_array_ref(s, lanes));
-            let to = survivors.places.get_mut(survivors.len..);
-            if let Some(to) = to.and_then(<[u32]>::first_chunk_mut) {
-                moved.store_array(to);
+            if let Some(to) = sixteen_mut(&mut self.samples, len) {
+                s.permute(samples, order).store_array(to);
             }
-            survivors.len += *count;
+            *first = len;
+            len += count;
         }
-        survivors
+        self.len = len;
+        // What lies behind the last one must be pixels of the tile, too.
+        if let Some(&last) = self.places.get(len.wrapping_sub(1))
+            && let Some(behind) = sixteen_mut(&mut self.places, len)
+        {
+            *behind = [last; LANES];
+        }
     }
 
-    /// The pixels of those from one on, and how many of these a packet takes, which holds no pixel
-    /// twice.
+    /// How many of those from one on a packet takes, which holds no pixel twice.
     #[inline(always)]
-    fn packet_from<S: Lanes>(
-        &self,
-        s: S,
-        from: usize,
-        pixels: &mut LastPacket,
-    ) -> (&[u32; LANES], usize) {
-        let places = self.places.get(from..).and_then(<[u32]>::first_chunk);
-        let places = places.unwrap_or(&[0; LANES]);
+    fn packet_from<S: Lanes>(&mut self, s: S, from: usize) -> usize {
         let end = LANES.min(self.len - from);
-        let lanes = lanes_between(0, end);
-        (
-            places,
-            pixels.begin_with(s, (places, lanes), false).min(end),
-        )
+        let pixels = (sixteen(&self.places, from), lanes_between(0, end));
+        self.pixels.begin_with(s, pixels, false).min(end)
     }
+
+    /// Moves their values from so many packets to those that they fill. There are `each` values of
+    /// a fragment.
+    #[inline(always)]
+    fn move_values<S: Lanes>(
+        &mut self,
+        s: S,
+        packets: &mut [Packet<f32>],
+        each: usize,
+        [before, after]: [usize; 2],
+    ) {
+        for number in 0..each {
+            let lanes = self.lanes.iter().zip(&self.firsts).take(before);
+            let of_packets = packets[number..].iter().step_by(each);
+            for (packet, (lanes, first)) in of_packets.zip(lanes) {
+                let order = u32x16::load_array_ref(s, lanes);
+                let values = s.permute_f32(f32x16::load_array_ref(s, &packet.0), order);
+                if let Some(to) = sixteen_mut(&mut self.values, *first) {
+                    values.store_array(to);
+                }
+            }
+            let of_packets = packets[number..].iter_mut().step_by(each);
+            for (packet, begin) in of_packets.zip(&self.begins[..after]) {
+                packet.0 = *sixteen(&self.values, *begin);
+            }
+        }
+    }
+}
+
+/// Sixteen values of a list.
+#[inline(always)]
+fn sixteen<T: Copy>(list: &[T; ROOM], from: usize) -> &[T; LANES] {
+    let sixteen = list.get(from..).and_then(<[T]>::first_chunk);
+    sixteen.unwrap_or_else(|| unreachable!("fragment {from} of a batch"))
+}
+
+#[inline(always)]
+fn sixteen_mut<T>(list: &mut [T; ROOM], from: usize) -> Option<&mut [T; LANES]> {
+    list.get_mut(from..).and_then(<[T]>::first_chunk_mut)
 }
 
 impl<const N: usize> FragmentQueue<N> {
@@ -108,74 +153,47 @@ impl<const N: usize> FragmentQueue<N> {
     /// Returns how many packets there were and how many there are, or zeros if there is nothing to
     /// gain. Each packet must have a run of the program of its own.
     #[inline(always)]
-    #[expect(clippy::cast_possible_truncation, reason = "numbers of lanes")]
-    pub(crate) fn gather_survivors<S: Lanes>(&mut self, s: S, pixels: &mut LastPacket) -> [u64; 2] {
-        let len = self.len.min(CAPACITY);
-        let (mut left, mut count) = ([0; CAPACITY], 0);
-        for (left, masks) in left.iter_mut().zip(&self.masks[..len]) {
-            *left = masks.iter().fold(0, |any, mask| any | mask);
-            count += left.count_ones() as usize;
-        }
-        if self.color_passthrough || count * 2 > len * LANES {
+    pub(crate) fn gather_survivors<S: Lanes>(
+        &mut self,
+        s: S,
+        survivors: &mut Survivors,
+    ) -> [u64; 2] {
+        let before = self.len.min(CAPACITY);
+        let any = |masks: &[u16; N]| masks.iter().fold(0, |any, mask| any | mask);
+        let counts = self.masks[..before].iter().map(|of| any(of).count_ones());
+        let count: u32 = counts.sum();
+        if self.color_passthrough || count as usize * 2 > before * LANES {
             return [0; 2];
         }
-        let survivors = Survivors::list(s, &self.places[..len], &left);
-        let (mut packets, mut slot, mut done) = (0, 0, 0);
-        let mut from = 0;
+        debug_assert!(
+            (0..before).all(|slot| self.shaded(slot) == slot),
+            "packets share no colours"
+        );
+        let fragments = (&self.masks[..before], &self.front_facing[..before]);
+        survivors.list(s, &self.places[..before], fragments);
+        let (mut after, mut from) = (0, 0);
         while from < survivors.len {
-            let (places, taken) = survivors.packet_from(s, from, pixels);
-            self.places[packets] = Place::of_pixels(places);
-            let mut used = 0;
-            while used < taken {
-                let rest = survivors.counts[slot] - done;
-                if rest == 0 {
-                    (slot, done) = (slot + 1, 0);
-                    continue;
-                }
-                debug_assert!(packets <= slot, "a packet opens one more at most");
-                debug_assert_eq!(self.shaded(slot), slot, "packets share no colours");
-                let end = taken.min(used + rest);
-                let first = u32x16::load_array(s, LANE_NUMBERS);
-                let shift = (done as u32).wrapping_sub(used as u32);
-                let lanes = u32x16::load_array_ref(s, &survivors.lanes[slot]);
-                let moves = Move {
-                    order: s.permute(lanes, first + shift),
-                    lanes: lanes_between(used, end),
-                    is_first: used == 0,
-                };
-                self.move_fragments(s, &moves, [slot, packets]);
-                done += end - used;
-                used = end;
-            }
-            packets += 1;
+            debug_assert!(after < before, "a packet opens one more at most");
+            let taken = survivors.packet_from(s, from);
+            let lanes = lanes_between(0, taken);
+            let samples = sixteen(&survivors.samples, from);
+            let front = s.sign_bits(u32x16::load_array_ref(s, samples).bitcast());
+            self.places[after] = Place::of_pixels(sixteen(&survivors.places, from));
+            self.masks[after] = masks_of(s, samples, lanes, false);
+            self.front_facing[after] = front & lanes;
+            survivors.begins[after] = from;
+            after += 1;
             from += taken;
         }
-        (self.len, self.shaded_len) = (packets, packets);
-        [len as u64, packets as u64]
-    }
-
-    /// Moves some fragments of a packet to another one.
-    #[inline(always)]
-    fn move_fragments<S: Lanes>(&mut self, s: S, moves: &Move<S>, [from, to]: [usize; 2]) {
-        let splat = |value| <u32x16<S> as SimdBase<S>>::splat(s, value);
-        let samples = s.permute(samples_of(s, &self.masks[from], false), moves.order);
-        let is_front = s.mask_from_bits(self.front_facing[from]);
-        let front = s.permute(is_front.select(splat(u32::MAX), splat(0)), moves.order);
-        let front = s.sign_bits(front.bitcast()) & moves.lanes;
-        let masks: [u16; N] = masks_of(s, &samples.to_array(), moves.lanes, false);
-        if moves.is_first {
-            (self.masks[to], self.front_facing[to]) = ([0; N], 0);
-        }
-        for (to, mask) in self.masks[to].iter_mut().zip(masks) {
-            *to |= mask;
-        }
-        self.front_facing[to] |= front;
-        moves.packets(s, &mut self.colors, self.colors_each * 4, [from, to]);
+        let packets = [before, after];
+        survivors.move_values(s, &mut self.colors, self.colors_each * 4, packets);
         if self.needs.depth {
-            moves.packets(s, &mut self.depths, N, [from, to]);
+            survivors.move_values(s, &mut self.depths, N, packets);
         }
         if self.depth_output != DepthOutput::None {
-            moves.packets(s, &mut self.depth_out, 1, [from, to]);
+            survivors.move_values(s, &mut self.depth_out, 1, packets);
         }
+        (self.len, self.shaded_len) = (after, after);
+        packets.map(|count| count as u64)
     }
 }

@@ -50,7 +50,7 @@ use crate::fragment::interpolate::{
     VaryingSource, set_planes,
 };
 use crate::fragment::last_packet::LastPacket;
-use crate::fragment::queue::packets_in_order;
+use crate::fragment::queue::{Survivors, packets_in_order};
 use crate::per_sample::hiz::{BlockClasses, HizQuery};
 use crate::per_sample::source_over::Layers;
 use crate::plan::tile_plan::{TestTiming, TilePlan};
@@ -88,8 +88,8 @@ pub(super) struct InOrderScratch<const N: usize> {
     small: Box<SmallScratch<N>>,
     fragments: Box<Fragments>,
     last_packet: Box<LastPacket>,
-    /// The pixels of survivors of shading.
-    survivors: Box<LastPacket>,
+    /// What shading leaves of packets.
+    survivors: Box<Survivors>,
     /// Large triangles that wait to be blended.
     layers: Box<Layers>,
 }

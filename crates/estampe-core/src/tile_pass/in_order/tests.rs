@@ -120,8 +120,8 @@ impl<const N: usize> InOrder<'_, '_, '_, '_, N> {
         self.keep_shaded(s);
         if const { N <= 4 && !S::IS_SCALAR } && self.shares_packets {
             let scratch = &mut *self.scratch;
-            let last_packet = &mut scratch.in_order.survivors;
-            let gathered = scratch.queue.gather_survivors(s, last_packet);
+            let survivors = &mut scratch.in_order.survivors;
+            let gathered = scratch.queue.gather_survivors(s, survivors);
             scratch.statistics.packets_of_survivors[0] += gathered[0];
             scratch.statistics.packets_of_survivors[1] += gathered[1];
         }
