@@ -68,6 +68,10 @@ pub struct Statistics {
     /// ends. They depend on the SIMD level.
     #[doc(hidden)]
     pub line_fragments_shown: u64,
+    /// Triangles that were drawn alone, in order, whose planes had been made together with those of
+    /// others, once for each tile. They depend on the SIMD level.
+    #[doc(hidden)]
+    pub planes_in_lanes: u64,
     /// Rectangles of two triangles that were drawn in order as one box, once for each tile. They
     /// depend on the SIMD level.
     #[doc(hidden)]
@@ -186,6 +190,7 @@ impl std::ops::AddAssign for Statistics {
         }
         self.small_triangle_pixels += other.small_triangle_pixels;
         self.rectangles_in_order += other.rectangles_in_order;
+        self.planes_in_lanes += other.planes_in_lanes;
         self.boxes_in_order += other.boxes_in_order;
         self.colors_kept += other.colors_kept;
         self.fragments_blended_by_lines += other.fragments_blended_by_lines;

@@ -175,6 +175,26 @@ impl CrossPlanes {
         }
     }
 
+    /// The planes of a lane's triangle, as `set_planes` writes them.
+    #[inline(always)]
+    pub(crate) fn copy_lane(&self, lane: usize, modes: &[Interpolation], out: &mut [f32]) {
+        let lane = lane % LANES;
+        let (origin, rest) = out.split_at_mut(modes.len());
+        let (dx, dy) = rest.split_at_mut(modes.len());
+        let from = self.corners[0].iter().zip(self.dx.iter().zip(&self.dy));
+        let to = origin.iter_mut().zip(dx.iter_mut().zip(dy));
+        for ((mode, from), to) in modes.iter().zip(from).zip(to) {
+            let ((origin, (dx, dy)), (to, (to_dx, to_dy))) = (from, to);
+            *to = origin.0[lane];
+            // Slopes of flat ones are not set.
+            let slopes = match mode {
+                Interpolation::Flat => [0.0; 2],
+                _ => [dx.0[lane], dy.0[lane]],
+            };
+            [*to_dx, *to_dy] = slopes;
+        }
+    }
+
     /// The triangles in `lanes` whose varyings have the same bits at all pixels.
     #[inline(always)]
     pub(crate) fn constant<S: Lanes>(&self, s: S, lanes: u16, modes: &[Interpolation]) -> u16 {
@@ -409,6 +429,7 @@ fn evaluate<S: Lanes>(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::fragment::interpolate::{VaryingPlanes, set_planes};
     use estampe_simd::{Level, dispatch};
 
     /// Lanes that are not wanted may be triangles of another draw, which has more vertices.
@@ -440,6 +461,51 @@ mod tests {
                         assert_eq!(values, expected, "{level:?}, {scalars} scalars");
                     }
                 }
+            }
+        }
+    }
+
+    #[test]
+    fn planes_of_a_lane_are_those_of_its_triangle() {
+        use Interpolation::{Flat, NoPerspective, Smooth};
+        let modes = [Smooth, Flat, NoPerspective, Smooth, Smooth, Flat];
+        let shaded: Vec<f32> = (0..48 * modes.len())
+            .map(|number| (number * 37 % 101) as f32 / 9.0 - 5.0)
+            .collect();
+        let source = VaryingSource {
+            shaded: &shaded,
+            clipped: &[],
+            modes: &modes,
+            gradients: &[],
+        };
+        let mut packet = TrianglePacket::EMPTY;
+        let vertices = (0_u32..).step_by(3);
+        for (lane, (number, first)) in (0_i32..).zip(vertices).enumerate().take(LANES) {
+            // Up to 1500 pixels, also beyond what 32 bits hold of an area.
+            let extent = 300 + number * number * 1700;
+            let corners = [[0, 0], [extent, number], [-number, extent]];
+            for (corner, ([x, y], vertex)) in corners.into_iter().zip(first..).enumerate() {
+                (packet.x[corner][lane], packet.y[corner][lane]) = (x + 77, y - 9);
+                packet.vertex[corner][lane] = VertexRef(vertex);
+                let apart = if lane % 3 == 0 { 0.0 } else { corner as f32 };
+                packet.iw_at[corner][lane] = 0.5 + apart;
+            }
+            packet.provoking.0[lane] = VertexRef(first + 1);
+        }
+        for level in Level::all_available() {
+            let mut planes = CrossPlanes::default();
+            dispatch!(@wide level, s => {
+                packet.complete_small(s);
+                planes.set(s, &packet, u16::MAX, &source);
+            }, scalar => continue);
+            for lane in 0..LANES {
+                let mut expected = vec![0.0; VaryingPlanes::size(modes.len())];
+                let mut copied = vec![f32::NAN; expected.len()];
+                let triangle = packet.triangle(lane);
+                dispatch!(level, s => set_planes(s, &mut expected, &triangle, &source, false));
+                planes.copy_lane(lane, &modes, &mut copied);
+                let bits = |of: &[f32]| -> Vec<u32> { of.iter().map(|x| x.to_bits()).collect() };
+                assert_eq!(bits(&copied), bits(&expected), "{level:?}, lane {lane}");
             }
         }
     }

@@ -230,7 +230,7 @@ fn middling_triangles_in_order_are_divided() {
                 let mut vertices = triangles(random, Style::Small, case.size, 60);
                 for corners in vertices.chunks_exact_mut(3) {
                     let middle = [random.range(0.0, 150.0), random.range(0.0, 100.0)];
-                    let reach = random.pick(&[4.0, 5.0, 6.0, 7.0, 7.9, 8.2]);
+                    let reach = random.pick(&[4.0, 5.0, 6.0, 7.0, 7.9, 8.2, 14.0]);
                     for corner in corners {
                         let at = middle.map(|at| at + random.range(-reach, reach));
                         let [_, _, z, w] = corner.position;
@@ -252,6 +252,11 @@ fn middling_triangles_in_order_are_divided() {
         assert!(
             packets > 0 && fragments > packets * 8,
             "{samples} samples: {fragments} fragments are in {packets} packets"
+        );
+        let planes = statistics.planes_in_lanes;
+        assert!(
+            planes > 20,
+            "{samples} samples: {planes} planes were made together"
         );
     }
 }

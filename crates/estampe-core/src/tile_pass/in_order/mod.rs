@@ -359,9 +359,15 @@ impl<'a, const N: usize> InOrder<'a, '_, '_, '_, N> {
         N == 1 && self.to == FragmentsTo::Visibility
     }
 
-    /// Draws a triangle alone, or the rectangle of which it is half: `is_box`.
+    /// Draws a triangle alone, or the rectangle of which it is half: `is_box`. Its planes are those
+    /// of a lane of the batch, or made now.
     #[inline(always)]
-    fn triangle<S: Lanes>(&mut self, s: S, triangle: &Triangle, is_box: bool) {
+    fn triangle<S: Lanes>(
+        &mut self,
+        s: S,
+        triangle: &Triangle,
+        (is_box, planes_of): (bool, Option<usize>),
+    ) {
         let (plan, front) = (self.work.plan, triangle.front);
         let plane = DepthPlane::new(triangle);
         let blends_blocks = self.blends_blocks && triangle.equal_w;
@@ -392,7 +398,13 @@ impl<'a, const N: usize> InOrder<'a, '_, '_, '_, N> {
         }
         // Moved out for the calls, because the interpolant borrows them.
         let mut planes = std::mem::take(&mut self.planes);
-        set_planes(s, &mut planes, triangle, &self.source, plan.all_smooth);
+        if let Some(lane) = planes_of {
+            let of_batch = &self.scratch.in_order.small.planes;
+            of_batch.copy_lane(lane, self.source.modes, &mut planes);
+            self.scratch.statistics.planes_in_lanes += 1;
+        } else {
+            set_planes(s, &mut planes, triangle, &self.source, plan.all_smooth);
+        }
         interpolant.planes = VaryingPlanes::new(&planes);
         if self.gathers {
             if interpolant.is_constant() {

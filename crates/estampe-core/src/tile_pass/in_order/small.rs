@@ -127,6 +127,15 @@ impl<'a> Batch<'a> {
     }
 }
 
+/// Lanes of a batch that was set up.
+#[derive(Debug, Clone, Copy, Default)]
+struct BatchLanes {
+    /// Those that may be listed.
+    small: u16,
+    /// Those whose planes were made.
+    with_planes: u16,
+}
+
 /// Memory of one worker.
 #[derive(Debug)]
 pub(super) struct SmallScratch<const N: usize> {
@@ -134,7 +143,7 @@ pub(super) struct SmallScratch<const N: usize> {
     packet: TrianglePacket,
     parts: Parts,
     pub(super) small: SmallBoxes<N>,
-    planes: CrossPlanes,
+    pub(super) planes: CrossPlanes,
     /// Lines, and their values.
     pub(super) lines: LinePacket,
     pub(super) cross_lines: CrossLines,
@@ -240,9 +249,10 @@ impl<const N: usize> InOrder<'_, '_, '_, '_, N> {
 
     #[inline(always)]
     fn batch_lanes<S: Lanes>(&mut self, s: S, batch: &Batch<'_>) {
-        let mut small = 0;
-        if self.listing != Listing::None && batch.small >= LEAST {
-            small = self.cover_batch(batch);
+        let mut set_up = BatchLanes::default();
+        let is_enough = batch.small >= LEAST || self.sets_planes() && batch.len >= LEAST;
+        if self.listing != Listing::None && is_enough {
+            set_up = self.set_up_batch(batch);
         }
         let mut next = 0;
         for (lane, member) in batch.iter() {
@@ -250,7 +260,7 @@ impl<const N: usize> InOrder<'_, '_, '_, '_, N> {
             if lane < next || member.part.from != [0; 2] {
                 continue;
             }
-            let run = (small >> lane).trailing_ones() as usize;
+            let run = (set_up.small >> lane).trailing_ones() as usize;
             if run >= LEAST {
                 self.end_fan();
                 let lanes = ((1u32 << run) - 1) << lane;
@@ -263,26 +273,39 @@ impl<const N: usize> InOrder<'_, '_, '_, '_, N> {
                 // Blocks are blended triangle by triangle.
                 let second = member.second.filter(|_| self.blends_blocks);
                 let is_box = member.second.is_some() && second.is_none();
-                for triangle in [Some(member.triangle), second].into_iter().flatten() {
-                    self.triangle(s, &triangle.unpack(), is_box);
+                let has_planes = set_up.with_planes >> lane & 1 == 1;
+                let planes_of = has_planes.then_some(lane);
+                self.triangle(s, &member.triangle.unpack(), (is_box, planes_of));
+                if let Some(triangle) = second {
+                    self.triangle(s, &triangle.unpack(), (is_box, None));
                 }
                 next = lane + 1;
             }
         }
     }
 
-    /// Covers the triangles of a batch. Returns those that may be listed.
+    /// Returns true if planes are made of all triangles of a batch together: also of those that are
+    /// drawn alone.
+    #[inline(always)]
+    fn sets_planes(&self) -> bool {
+        // Triangles of fans need none.
+        !self.joins_triangles && !self.source.modes.is_empty()
+    }
+
+    /// Covers the small triangles of a batch, and makes planes.
     #[inline(never)]
-    fn cover_batch(&mut self, batch: &Batch<'_>) -> u16 {
+    fn set_up_batch(&mut self, batch: &Batch<'_>) -> BatchLanes {
         // Code for more samples is not needed, and that of the scalar level takes too long.
         if const { N > 4 } {
-            return 0;
+            return BatchLanes::default();
         }
-        dispatch!(@wide self.work.level, s => self.cover_lanes(s, batch), scalar => 0)
+        dispatch!(@wide self.work.level, s => self.set_up_lanes(s, batch),
+            scalar => BatchLanes::default())
     }
 
     #[inline(always)]
-    fn cover_lanes<S: Lanes>(&mut self, s: S, batch: &Batch<'_>) -> u16 {
+    fn set_up_lanes<S: Lanes>(&mut self, s: S, batch: &Batch<'_>) -> BatchLanes {
+        let sets_planes = self.sets_planes();
         let scratch = &mut *self.scratch.in_order.small;
         for (lane, member) in batch.iter() {
             scratch.packet.set(lane, member.triangle);
@@ -290,22 +313,28 @@ impl<const N: usize> InOrder<'_, '_, '_, '_, N> {
         }
         scratch.packet.complete_small(s);
         let lanes = u16::MAX >> (LANES - batch.len.clamp(1, LANES));
-        let tile = (self.work.shape, &self.work.rect);
         let packet = &scratch.packet;
-        let small = &mut scratch.small;
-        let boxes = Boxes {
-            side: SIDE,
-            quads: self.listing == Listing::Quads,
-        };
-        let of_lanes = (packet, lanes);
-        let small = small.cover_boxes(s, boxes, &scratch.parts, of_lanes, (tile, self.samples));
-        if (small.count_ones() as usize) < LEAST {
-            return 0;
+        let mut small = 0;
+        if batch.small >= LEAST {
+            let tile = (self.work.shape, &self.work.rect);
+            let boxes = Boxes {
+                side: SIDE,
+                quads: self.listing == Listing::Quads,
+            };
+            let (of_lanes, of_tile) = ((packet, lanes), (tile, self.samples));
+            let covered = &mut scratch.small;
+            small = covered.cover_boxes(s, boxes, &scratch.parts, of_lanes, of_tile);
+            if (small.count_ones() as usize) < LEAST {
+                small = 0;
+            }
         }
-        scratch.planes.set(s, packet, small, &self.source);
-        if self.gathers {
-            return small & !scratch.planes.constant(s, small, self.source.modes);
+        let with_planes = if sets_planes { lanes } else { small };
+        if with_planes != 0 {
+            scratch.planes.set(s, packet, with_planes, &self.source);
         }
-        small
+        if self.gathers && small != 0 {
+            small &= !scratch.planes.constant(s, small, self.source.modes);
+        }
+        BatchLanes { small, with_planes }
     }
 }
