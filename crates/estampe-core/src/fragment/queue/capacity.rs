@@ -1,7 +1,8 @@
 //! How many packets are shaded in one call of the program.
 //!
-//! A call of a program of text takes as long as a packet or two before it computes anything, so many
-//! packets are better than few, as long as what they take in and out fits the first-level cache.
+//! A call of a program of text takes as long as a packet or two before it computes anything, so
+//! many packets are better than few, as long as what they take in and give out fits the first-level
+//! cache.
 
 use estampe_types::Interface;
 

@@ -19,8 +19,8 @@ use crate::fragment::place::Place;
 use estampe_simd::{Bytes, LANES, Lanes, Packet, Select, SimdBase, f32x16, u32x16};
 use estampe_types::shader::DepthOutput;
 
-/// Values in a list: those of all fragments of a full queue. Sixteen are written at a time, so there
-/// is room behind the last one.
+/// Values in a list: those of all fragments of a full queue. Sixteen are written at a time, so
+/// there is room behind the last one.
 const ROOM: usize = (CAPACITY + 1) * LANES;
 
 /// The bit beside a fragment's samples that says that its primitive faces the viewer.
