@@ -153,17 +153,19 @@ impl Rgba8Texture {
         uv: Vec2<R>,
         detail: Detail<R>,
     ) -> [Vec4<R>; N] {
-        let mut answers = [Answers::default(); N];
-        Self::sample_all_lanes(&textures, (uv, detail), 0, &mut answers);
-        let mut others = answers;
+        let mut first = [Answers::default(); N];
+        Self::sample_all_lanes(&textures, (uv, detail), 0, &mut first);
+        let mut second = first;
         if R::LANES > LANES {
-            Self::sample_all_lanes(&textures, (uv, detail), LANES, &mut others);
+            Self::sample_all_lanes(&textures, (uv, detail), LANES, &mut second);
         }
-        let mut colors = [Vec4::repeat(uv.x); N];
-        for ((color, first), second) in colors.iter_mut().zip(&answers).zip(&others) {
-            *color = packed(uv.x, [first, second]);
+        if R::LANES <= 2 * LANES {
+            return all_packed(uv.x, [&first, &second, &first, &second]);
         }
-        colors
+        let (mut third, mut fourth) = (first, first);
+        Self::sample_all_lanes(&textures, (uv, detail), 2 * LANES, &mut third);
+        Self::sample_all_lanes(&textures, (uv, detail), 3 * LANES, &mut fourth);
+        all_packed(uv.x, [&first, &second, &third, &fourth])
     }
 
     /// Samples sixteen lanes at a time through `request.rs`, whose code is not compiled into the
@@ -333,7 +335,7 @@ impl Rgba8Texture {
         let minified = (level + level) | level.splat(1);
         let key = R::Int::select(is_minified, minified, level.splat(0));
         let mut color = Vec4::repeat(fraction);
-        let mut left = u32::MAX >> (32 - R::LANES);
+        let mut left = u64::MAX >> (64 - R::LANES);
         while left != 0 {
             let first = key.lane(left.trailing_zeros() as usize);
             let mask = key.eq(key.splat(first));
@@ -364,6 +366,17 @@ impl Rgba8Texture {
         }
         finish(color, self.is_srgb)
     }
+}
+
+/// [`packed`] of several textures.
+#[inline(always)]
+fn all_packed<R: Real, const N: usize>(like: R, answers: [&[Answers; N]; 4]) -> [Vec4<R>; N] {
+    let mut colors = [Vec4::repeat(like); N];
+    let [first, second, third, fourth] = answers;
+    for (at, color) in colors.iter_mut().enumerate() {
+        *color = packed(like, [&first[at], &second[at], &third[at], &fourth[at]]);
+    }
+    colors
 }
 
 /// Returns true if texels are words of four unorm bytes, with or without sRGB.

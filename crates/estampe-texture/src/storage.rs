@@ -78,7 +78,7 @@ pub fn storage_load<I: Int>(texture: &StorageTexture, at: [I; 3]) -> Vec4<I::Rea
             by_sixteen(
                 like,
                 #[inline(always)]
-                |first| load_lanes(texture, &Places::new(at, first, u32::MAX)),
+                |first| load_lanes(texture, &Places::new(at, first, u64::MAX)),
             )
         },
     )
@@ -116,12 +116,12 @@ struct Places {
     at: [Packet<i32>; 3],
     count: usize,
     /// The lanes that store.
-    mask: u32,
+    mask: u64,
 }
 
 impl Places {
     #[inline(always)]
-    fn new<I: Int>([x, y, slice]: [I; 3], first: usize, mask: u32) -> Self {
+    fn new<I: Int>([x, y, slice]: [I; 3], first: usize, mask: u64) -> Self {
         Self {
             at: [
                 packet_of_ints(x, first),

@@ -12,7 +12,8 @@ use std::ops::{
 ///
 /// Each operation is done on both halves, which do not depend on each other. Where each operation
 /// depends on the previous one, a single packet leaves most of the processor's execution units
-/// idle. So fragments are shaded two packets at a time where one register holds a packet.
+/// idle. So fragments are shaded two packets at a time where one register holds a packet, and a pair
+/// of pairs at a time where they have long loops.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pair<T>(pub T, pub T);
 
@@ -152,7 +153,7 @@ impl<R: Real> Real for Pair<R> {
         R::any(mask.0 | mask.1)
     }
     #[inline(always)]
-    fn mask_bits(mask: Pair<R::SelectMask>) -> u32 {
+    fn mask_bits(mask: Pair<R::SelectMask>) -> u64 {
         R::mask_bits(mask.0) | R::mask_bits(mask.1) << R::LANES
     }
     #[inline(always)]

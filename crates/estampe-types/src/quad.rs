@@ -173,8 +173,8 @@ impl Real for Quad {
         mask.0.contains(&true)
     }
     #[inline(always)]
-    fn mask_bits(mask: Quad<bool>) -> u32 {
-        let [a, b, c, d] = mask.0.map(u32::from);
+    fn mask_bits(mask: Quad<bool>) -> u64 {
+        let [a, b, c, d] = mask.0.map(u64::from);
         a | b << 1 | c << 2 | d << 3
     }
     #[inline(always)]
@@ -359,8 +359,8 @@ impl Real for f32 {
         mask
     }
     #[inline(always)]
-    fn mask_bits(mask: bool) -> u32 {
-        u32::from(mask)
+    fn mask_bits(mask: bool) -> u64 {
+        u64::from(mask)
     }
     #[inline(always)]
     #[expect(

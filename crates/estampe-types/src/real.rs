@@ -9,7 +9,8 @@ use std::ops::{
 };
 
 /// Real numbers in f32 arithmetic: one (`f32`), the four of a 2×2 quad ([`Quad`](crate::Quad)), the
-/// sixteen of a packet (`f32x16<S>`), or the thirty-two of a packet pair ([`Pair`](crate::Pair)).
+/// sixteen of a packet (`f32x16<S>`), the thirty-two of a packet pair ([`Pair`](crate::Pair)), or the
+/// sixty-four of a pair of pairs.
 ///
 /// Each operation acts on every lane alone and gives the same bits for every implementation.
 /// Constants are made from an existing number, because sixteen lanes need the token of their SIMD
@@ -95,7 +96,7 @@ pub trait Real:
     /// A 32-bit integer for each lane.
     type Int: Int<Real = Self, SelectMask = Self::SelectMask>;
 
-    /// The number of lanes: 1, 4, 16 or 32.
+    /// The number of lanes: 1, 4, 16, 32 or 64.
     const LANES: usize;
     /// True if several lanes are emulated by scalar instructions. Long code with many table
     /// look-ups should then loop over the lanes with `f32` numbers.
@@ -155,7 +156,7 @@ pub trait Real:
         !Self::any(!mask)
     }
     /// The mask as bits: lane `i` is bit `i`.
-    fn mask_bits(mask: Self::SelectMask) -> u32;
+    fn mask_bits(mask: Self::SelectMask) -> u64;
 
     /// Rounds towards zero. NaN gives 0; values out of range give the least or the greatest
     /// integer.

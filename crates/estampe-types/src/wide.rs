@@ -68,12 +68,8 @@ impl<S: Lanes> Real for f32x16<S> {
         mask.any_true()
     }
     #[inline(always)]
-    #[expect(
-        clippy::cast_possible_truncation,
-        reason = "a mask of 16 lanes has 16 bits"
-    )]
-    fn mask_bits(mask: mask32x16<S>) -> u32 {
-        mask.to_bitmask() as u32
+    fn mask_bits(mask: mask32x16<S>) -> u64 {
+        mask.to_bitmask()
     }
     #[inline(always)]
     fn to_int(self) -> i32x16<S> {

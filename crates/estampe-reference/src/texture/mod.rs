@@ -34,8 +34,8 @@ pub struct ReferenceTexture {
 
 impl Sample2d for ReferenceTexture {
     fn sample<R: Real>(&self, uv: Vec2<R>) -> Vec4<R> {
-        // A packet pair has thirty-two lanes; a single fragment is its own quad.
-        let mut texels = [[0.0; 4]; 32];
+        // Two packet pairs have sixty-four lanes; a single fragment is its own quad.
+        let mut texels = [[0.0; 4]; 64];
         let gradients = [uv.x.ddx(), uv.y.ddx(), uv.x.ddy(), uv.y.ddy()];
         for (lane, texel) in texels.iter_mut().enumerate().take(R::LANES) {
             let first = if R::LANES >= 4 { lane / 4 * 4 } else { 0 };

@@ -180,16 +180,19 @@ pub(crate) fn load<R: Real>(like: R, from: &Packet<f32>, first: usize) -> R {
 #[inline(always)]
 pub(crate) fn by_sixteen<R: Real>(like: R, ask: impl Fn(usize) -> Answers) -> Vec4<R> {
     let first = ask(0);
-    if R::LANES > LANES {
-        packed(like, [&first, &ask(LANES)])
-    } else {
-        packed(like, [&first, &first])
+    if R::LANES <= LANES {
+        return packed(like, [&first; 4]);
     }
+    let second = ask(LANES);
+    if R::LANES <= 2 * LANES {
+        return packed(like, [&first, &second, &first, &second]);
+    }
+    packed(like, [&first, &second, &ask(2 * LANES), &ask(3 * LANES)])
 }
 
 /// Loads the four channels of each lane as a vector.
 #[inline(always)]
-pub(crate) fn packed<R: Real>(like: R, answers: [&Answers; 2]) -> Vec4<R> {
+pub(crate) fn packed<R: Real>(like: R, answers: [&Answers; 4]) -> Vec4<R> {
     Vec4::new(
         channel(like, answers, 0),
         channel(like, answers, 1),
@@ -199,7 +202,7 @@ pub(crate) fn packed<R: Real>(like: R, answers: [&Answers; 2]) -> Vec4<R> {
 }
 
 #[inline(always)]
-fn channel<R: Real>(like: R, answers: [&Answers; 2], channel: usize) -> R {
+fn channel<R: Real>(like: R, answers: [&Answers; 4], channel: usize) -> R {
     like.with_lanes(
         #[inline(always)]
         |lane| answers[lane / LANES][channel].0[lane % LANES],

@@ -296,7 +296,7 @@ impl<'a> Real for Traced<'a> {
     fn any(_: Self::SelectMask) -> bool {
         no_lanes()
     }
-    fn mask_bits(_: Self::SelectMask) -> u32 {
+    fn mask_bits(_: Self::SelectMask) -> u64 {
         no_lanes()
     }
     fn to_int(self) -> Self::Int {

@@ -1,8 +1,9 @@
 //! Type erasure: a Rust shader behind the [`Program`] interface.
 
 use super::declaration::{assert_derivatives, assert_fragment, assert_vertex};
+use super::dry_run::{Examined, examine};
 use super::packets::{PacketSink, PacketSource, Packets};
-use super::{Attributes, DepthOutput, Varyings, interface_of, scalar};
+use super::{Attributes, DepthOutput, Varyings, scalar};
 use crate::{
     Bindings, FragmentBatch, FragmentIn, Interface, Pair, Program, Real, Shader, ShaderError, Vec4,
     VertexBatch, VertexIn, derivatives,
@@ -10,11 +11,14 @@ use crate::{
 use estampe_simd::{
     Bytes, LANES, Lanes, Level, Packet, SimdBase, dispatch, f32x16, i32x16, u32x16,
 };
+use std::ops::Range;
 
 /// A [`Shader`] whose type a pipeline need not know.
 pub struct ShaderProgram<T> {
     shader: T,
     interface: Interface,
+    /// Fragments have long loops, as far as is known.
+    loops_long: bool,
     /// Why no pipeline can be made of the shader, if so.
     error: Option<ShaderError>,
 }
@@ -24,13 +28,14 @@ impl<T: Shader> ShaderProgram<T> {
     /// a few times. An error is reported when a pipeline is created, by [`Program::validate`].
     #[must_use]
     pub fn new(shader: T) -> Self {
-        let (interface, error) = match interface_of(&shader) {
-            Ok(interface) => (interface, None),
-            Err(error) => (Interface::default(), Some(error)),
+        let (examined, error) = match examine(&shader) {
+            Ok(examined) => (examined, None),
+            Err(error) => (Examined::default(), Some(error)),
         };
         Self {
             shader,
-            interface,
+            interface: examined.interface,
+            loops_long: examined.loops_long,
             error,
         }
     }
@@ -65,30 +70,53 @@ impl<T: Shader> Program for ShaderProgram<T> {
             scalar => scalar::vertices(&self.shader, &self.interface, bindings, batch));
     }
 
-    fn run_fragments(&self, level: Level, bindings: &Bindings, batch: FragmentBatch<'_>) {
-        dispatch!(@wide level, s => self.fragments_of(s, bindings, batch),
+    fn run_fragments(&self, level: Level, bindings: &Bindings, mut batch: FragmentBatch<'_>) {
+        let mut rest = 0..batch.coverage.len();
+        if self.loops_long {
+            // In a function of its own: the time of a compiler grows faster than functions do.
+            let fours = (reborrowed(&mut batch), 0..rest.end / 4 * 4);
+            rest.start = dispatch!(@wide level, s => self.by_fours(s, bindings, fours),
+                scalar => 0);
+        }
+        dispatch!(@wide level, s => self.fragments_of(s, bindings, (batch, rest)),
             scalar => scalar::fragments(&self.shader, &self.interface, bindings, batch));
     }
 }
 
+/// How many packets of fragments are shaded at a time.
+#[cfg(test)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum AtATime {
+    One,
+    Two,
+    Four,
+}
+
 #[cfg(test)]
 impl<T: Shader> ShaderProgram<T> {
-    /// Shades packets of fragments two at a time at each level that has packets, or one at a time.
+    /// Shades packets of fragments so many at a time at each level that has packets.
     pub(crate) fn run_fragments_by(
         &self,
-        pairs: bool,
+        packets: AtATime,
         level: Level,
         bindings: &Bindings,
         batch: FragmentBatch<'_>,
     ) {
         dispatch!(@wide level, s => {
-            if pairs {
-                self.fragments::<_, Pair<f32x16<_>>>(s, bindings, batch);
-            } else {
-                self.fragments::<_, f32x16<_>>(s, bindings, batch);
+            let all = 0..batch.coverage.len();
+            let of = (batch, all);
+            match packets {
+                AtATime::One => self.fragments::<_, f32x16<_>, 1>(s, bindings, of),
+                AtATime::Two => self.fragments::<_, Pair<f32x16<_>>, 2>(s, bindings, of),
+                AtATime::Four => self.fragments::<_, Pair<Pair<f32x16<_>>>, 4>(s, bindings, of),
             }
         },
             scalar => scalar::fragments(&self.shader, &self.interface, bindings, batch));
+    }
+
+    /// True if fragments were found to have long loops.
+    pub(crate) fn loops_long(&self) -> bool {
+        self.loops_long
     }
 }
 
@@ -106,11 +134,11 @@ impl<T: Shader> ShaderProgram<T> {
                 bindings,
                 zero: <f32x16<S> as SimdBase<S>>::splat(simd, 0.0),
             };
-            let left = [&batch.attributes[packet * attributes..][..attributes]; 2];
+            let left = [&batch.attributes[packet * attributes..][..attributes]];
             let loaded = T::Attributes::load(&mut PacketSource::new(simd, left));
             let out = self.shader.vertex(input, loaded);
             assert_vertex::<T, _, _>(interface, &out);
-            store_vec4(out.position, [packet * 4; 2], batch.positions);
+            store_vec4(out.position, [packet * 4], batch.positions);
             let to = &mut batch.varyings[packet * varyings..][..varyings];
             out.varyings.store(&mut PacketSink { left: to });
             if interface.writes_point_size {
@@ -131,32 +159,50 @@ impl<T: Shader> ShaderProgram<T> {
     /// Shades two packets at a time where a register holds a packet, so that the operations of one
     /// run while those of the other wait for their operands; else one after the other.
     #[inline(always)]
-    fn fragments_of<S: Lanes>(&self, simd: S, bindings: &Bindings, batch: FragmentBatch<'_>) {
+    fn fragments_of<S: Lanes>(&self, simd: S, bindings: &Bindings, of: Part<'_>) {
         if const { S::IN_ONE_REGISTER } {
-            self.fragments::<_, Pair<f32x16<S>>>(simd, bindings, batch);
+            self.fragments::<_, Pair<f32x16<S>>, 2>(simd, bindings, of);
         } else {
-            self.fragments::<_, f32x16<S>>(simd, bindings, batch);
+            self.fragments::<_, f32x16<S>, 1>(simd, bindings, of);
         }
     }
 
-    /// Shades packets one after the other, or two at a time.
+    /// Shades the first packets, four at a time where a register holds a packet, and returns how
+    /// many are done: all of them, or none.
+    ///
+    /// An iteration of a long loop waits for the one before, and has more operations than the
+    /// processor looks ahead: two packets leave half of its units idle.
     #[inline(always)]
-    fn fragments<S: Lanes, R: Packets<S>>(
+    fn by_fours<S: Lanes>(&self, simd: S, bindings: &Bindings, of: Part<'_>) -> usize {
+        if const { S::IN_ONE_REGISTER } {
+            let end = of.1.end;
+            self.fragments::<_, Pair<Pair<f32x16<S>>>, 4>(simd, bindings, of);
+            end
+        } else {
+            0
+        }
+    }
+
+    /// Shades some packets of a batch, `N` at a time.
+    #[inline(always)]
+    fn fragments<S: Lanes, R: Packets<S, N>, const N: usize>(
         &self,
         simd: S,
         bindings: &Bindings,
-        batch: FragmentBatch<'_>,
+        (batch, some): Part<'_>,
     ) {
         let interface = &self.interface;
         let (varyings, scalars) = (interface.varyings.len(), interface.fragment_scalars());
         let targets = interface.color_targets;
         let outputs = interface.colors();
-        let count = batch.coverage.len();
-        for packet in (0..count).step_by(R::COUNT) {
-            // A last packet without a partner is paired with itself.
-            let second = (packet + R::COUNT - 1).min(count - 1);
-            let packets = [packet, second];
-            let input = input_of::<S, R>(simd, (interface, bindings), &batch, packets);
+        let end = some.end;
+        for first in some.step_by(N) {
+            // Where packets are missing, the last one takes their place.
+            let mut packets = [first; N];
+            for (at, packet) in packets.iter_mut().enumerate() {
+                *packet = (first + at).min(end - 1);
+            }
+            let input = input_of::<S, R, N>(simd, (interface, bindings), &batch, packets);
             let zero = input.zero;
             let black = Vec4::new(zero, zero, zero, zero);
             let of_packets = rows(batch.varyings, packets, scalars);
@@ -167,42 +213,38 @@ impl<T: Shader> ShaderProgram<T> {
             assert_derivatives::<T>(interface);
             assert_fragment::<T, _>(interface, &out);
             for index in 0..targets {
-                let at = [
-                    (packet * outputs + index) * 4,
-                    (second * outputs + index) * 4,
-                ];
+                let mut at = packets;
+                for at in &mut at {
+                    *at = (*at * outputs + index) * 4;
+                }
                 store_vec4(out.colors[index].unwrap_or(black), at, batch.colors);
             }
             if interface.dual_source {
-                let at = [
-                    (packet * outputs + targets) * 4,
-                    (second * outputs + targets) * 4,
-                ];
+                let mut at = packets;
+                for at in &mut at {
+                    *at = (*at * outputs + targets) * 4;
+                }
                 store_vec4(out.second.unwrap_or(black), at, batch.colors);
             }
             if interface.writes_sample_mask {
                 let kept = out.sample_mask.unwrap_or(zero.splat_int(-1));
                 let kept = R::parts_of_ints(kept);
-                store_ints(kept[0], &mut batch.sample_masks[packet]);
-                if R::COUNT > 1 {
-                    store_ints(kept[1], &mut batch.sample_masks[second]);
+                for (kept, packet) in kept.into_iter().zip(packets) {
+                    store_ints(kept, &mut batch.sample_masks[packet]);
                 }
             }
             if let Some(keep) = out.keep
                 && interface.discards
             {
-                let keep = R::parts_of_mask(keep);
-                batch.coverage[packet] &= simd.bits_of_mask(keep[0]);
-                if R::COUNT > 1 {
-                    batch.coverage[second] &= simd.bits_of_mask(keep[1]);
+                for (keep, packet) in R::parts_of_mask(keep).into_iter().zip(packets) {
+                    batch.coverage[packet] &= simd.bits_of_mask(keep);
                 }
             }
             if interface.depth_output != DepthOutput::None {
                 match out.depth.map(R::parts) {
-                    Some(depth) => {
-                        depth[0].store_array(&mut batch.depths[packet].0);
-                        if R::COUNT > 1 {
-                            depth[1].store_array(&mut batch.depths[second].0);
+                    Some(depths) => {
+                        for (depth, packet) in depths.into_iter().zip(packets) {
+                            depth.store_array(&mut batch.depths[packet].0);
                         }
                     }
                     // The interpolated depth: window z, which is given to such shaders.
@@ -217,16 +259,34 @@ impl<T: Shader> ShaderProgram<T> {
     }
 }
 
+/// A batch, and which of its packets are shaded.
+type Part<'a> = (FragmentBatch<'a>, Range<usize>);
+
+/// The same batch, to shade a part of it. (References to a batch would be read anew for each
+/// packet.)
+fn reborrowed<'a>(batch: &'a mut FragmentBatch<'_>) -> FragmentBatch<'a> {
+    FragmentBatch {
+        varyings: batch.varyings,
+        positions: batch.positions,
+        front_facing: batch.front_facing,
+        sample_index: batch.sample_index,
+        samples_covered: batch.samples_covered,
+        coverage: batch.coverage,
+        colors: batch.colors,
+        depths: batch.depths,
+        sample_masks: batch.sample_masks,
+    }
+}
+
 /// The inputs of fragments beside their varyings. Without closures, and apart from the shader's
 /// type: arrays' `map` is five functions for each closure of each shader at each level.
 #[inline(always)]
-fn input_of<'b, S: Lanes, R: Packets<S>>(
+fn input_of<'b, S: Lanes, R: Packets<S, N>, const N: usize>(
     simd: S,
     (interface, bindings): (&Interface, &'b Bindings),
     batch: &FragmentBatch<'_>,
-    packets: [usize; 2],
+    packets: [usize; N],
 ) -> FragmentIn<'b, R> {
-    let [first, second] = packets;
     let zero = R::zero(simd);
     let position = if interface.reads_position {
         let left = rows(batch.positions, packets, 4);
@@ -235,22 +295,28 @@ fn input_of<'b, S: Lanes, R: Packets<S>>(
         Vec4::new(zero, zero, zero, zero)
     };
     let sample_index = if interface.per_sample {
-        let of_samples = [batch.sample_index[first], batch.sample_index[second]];
-        R::ints_of(simd, [[of_samples[0]; LANES], [of_samples[1]; LANES]])
+        let mut of_lanes = [[0; LANES]; N];
+        for (lanes, packet) in of_lanes.iter_mut().zip(packets) {
+            *lanes = [batch.sample_index[packet]; LANES];
+        }
+        R::ints_of(simd, of_lanes.each_ref())
     } else {
         zero.splat_int(0)
     };
     let coverage = if interface.reads_coverage {
-        let (a, b) = (
-            &batch.samples_covered[first],
-            &batch.samples_covered[second],
-        );
-        R::ints_of(simd, [a.0, b.0])
+        let mut of_lanes = [&[0; LANES]; N];
+        for (lanes, packet) in of_lanes.iter_mut().zip(packets) {
+            *lanes = &batch.samples_covered[packet].0;
+        }
+        R::ints_of(simd, of_lanes)
     } else {
         zero.splat_int(0)
     };
-    let front = [batch.front_facing[first], batch.front_facing[second]];
-    let helpers = [!batch.coverage[first], !batch.coverage[second]];
+    let (mut front, mut helpers) = ([0; N], [0; N]);
+    for (at, packet) in packets.into_iter().enumerate() {
+        front[at] = batch.front_facing[packet];
+        helpers[at] = !batch.coverage[packet];
+    }
     FragmentIn {
         position,
         front_facing: R::mask_of(simd, front),
@@ -262,10 +328,18 @@ fn input_of<'b, S: Lanes, R: Packets<S>>(
     }
 }
 
-/// The packets of `each` scalars of two packets of fragments.
+/// The packets of `each` scalars of some packets of fragments.
 #[inline(always)]
-fn rows(all: &[Packet<f32>], [first, second]: [usize; 2], each: usize) -> [&[Packet<f32>]; 2] {
-    [&all[first * each..][..each], &all[second * each..][..each]]
+fn rows<const N: usize>(
+    all: &[Packet<f32>],
+    packets: [usize; N],
+    each: usize,
+) -> [&[Packet<f32>]; N] {
+    let mut rows = [&all[..0]; N];
+    for (row, packet) in rows.iter_mut().zip(packets) {
+        *row = &all[packet * each..][..each];
+    }
+    rows
 }
 
 #[inline(always)]
@@ -279,15 +353,18 @@ fn store_ints<S: Lanes>(value: i32x16<S>, to: &mut Packet<u32>) {
     bits.store_array(&mut to.0);
 }
 
-/// Stores the four components of a vector in consecutive packets, from `at[0]` on for the first
-/// packet and from `at[1]` on for the second.
+/// Stores the four components of a vector in consecutive packets, from `at` on for each packet of
+/// fragments.
 #[inline(always)]
-fn store_vec4<S: Lanes, R: Packets<S>>(value: Vec4<R>, at: [usize; 2], to: &mut [Packet<f32>]) {
+fn store_vec4<S: Lanes, R: Packets<S, N>, const N: usize>(
+    value: Vec4<R>,
+    at: [usize; N],
+    to: &mut [Packet<f32>],
+) {
     let Vec4 { x, y, z, w } = value;
     let [x, y, z, w] = [x.parts(), y.parts(), z.parts(), w.parts()];
-    store_part([x[0], y[0], z[0], w[0]], &mut to[at[0]..][..4]);
-    if R::COUNT > 1 {
-        store_part([x[1], y[1], z[1], w[1]], &mut to[at[1]..][..4]);
+    for (part, at) in at.into_iter().enumerate() {
+        store_part([x[part], y[part], z[part], w[part]], &mut to[at..][..4]);
     }
 }
 

@@ -31,6 +31,8 @@ pub use amplification::{
 };
 pub use compute::{ComputeInterface, ComputeProgram, ComputeStopped, WorkgroupOrder, Workgroups};
 pub use dry_run::interface_of;
+#[cfg(test)]
+pub(crate) use erased::AtATime;
 pub use erased::ShaderProgram;
 pub use error::ShaderError;
 pub use fragment::{FragmentBatch, FragmentIn, FragmentOut};

@@ -1,100 +1,122 @@
-//! Conversion between a batch's packets and the numbers that a shader computes with: one packet, or
-//! a pair.
+//! Conversion between a batch's packets and the numbers that a shader computes with: one packet, a
+//! pair, or a pair of pairs.
 
 use super::{Sink, Source};
 use crate::{Pair, Real};
 use estampe_simd::{Bytes, LANES, Lanes, Packet, SimdBase, f32x16, i32x16, mask32x16, u32x16};
 
-/// One packet or a pair of packets.
-pub(super) trait Packets<S: Lanes>: Real {
-    /// Number of packets.
-    const COUNT: usize;
-
+/// As many packets as `N` says: one, a pair, or a pair of pairs.
+pub(super) trait Packets<S: Lanes, const N: usize>: Real {
     fn zero(simd: S) -> Self;
     /// The next scalar of each packet.
-    fn take(simd: S, left: &mut [&[Packet<f32>]; 2]) -> Self;
-    /// Both packets; a single packet is returned twice.
-    fn parts(self) -> [f32x16<S>; 2];
+    fn take(simd: S, left: &mut [&[Packet<f32>]; N]) -> Self;
+    /// Each packet.
+    fn parts(self) -> [f32x16<S>; N];
     /// The mask whose lane i is bit i of each packet's bits.
-    fn mask_of(simd: S, bits: [u16; 2]) -> Self::SelectMask;
+    fn mask_of(simd: S, bits: [u16; N]) -> Self::SelectMask;
     /// Integers from each packet's lanes.
-    fn ints_of(simd: S, lanes: [[u32; LANES]; 2]) -> Self::Int;
+    fn ints_of(simd: S, lanes: [&[u32; LANES]; N]) -> Self::Int;
     /// [`Packets::parts`] of integers.
-    fn parts_of_ints(ints: Self::Int) -> [i32x16<S>; 2];
+    fn parts_of_ints(ints: Self::Int) -> [i32x16<S>; N];
     /// [`Packets::parts`] of a mask.
-    fn parts_of_mask(mask: Self::SelectMask) -> [mask32x16<S>; 2];
+    fn parts_of_mask(mask: Self::SelectMask) -> [mask32x16<S>; N];
 }
 
-impl<S: Lanes> Packets<S> for f32x16<S> {
-    const COUNT: usize = 1;
-
+impl<S: Lanes> Packets<S, 1> for f32x16<S> {
     #[inline(always)]
     fn zero(simd: S) -> Self {
         SimdBase::splat(simd, 0.0)
     }
     #[inline(always)]
-    fn take(simd: S, [left, _]: &mut [&[Packet<f32>]; 2]) -> Self {
+    fn take(simd: S, [left]: &mut [&[Packet<f32>]; 1]) -> Self {
         next(simd, left)
     }
     #[inline(always)]
-    fn parts(self) -> [Self; 2] {
-        [self; 2]
+    fn parts(self) -> [Self; 1] {
+        [self]
     }
     #[inline(always)]
-    fn mask_of(simd: S, [bits, _]: [u16; 2]) -> mask32x16<S> {
+    fn mask_of(simd: S, [bits]: [u16; 1]) -> mask32x16<S> {
         simd.mask_from_bits(bits)
     }
     #[inline(always)]
-    fn ints_of(simd: S, [lanes, _]: [[u32; LANES]; 2]) -> i32x16<S> {
+    fn ints_of(simd: S, [lanes]: [&[u32; LANES]; 1]) -> i32x16<S> {
         ints(simd, lanes)
     }
     #[inline(always)]
-    fn parts_of_ints(ints: i32x16<S>) -> [i32x16<S>; 2] {
-        [ints; 2]
+    fn parts_of_ints(ints: i32x16<S>) -> [i32x16<S>; 1] {
+        [ints]
     }
     #[inline(always)]
-    fn parts_of_mask(mask: mask32x16<S>) -> [mask32x16<S>; 2] {
-        [mask; 2]
+    fn parts_of_mask(mask: mask32x16<S>) -> [mask32x16<S>; 1] {
+        [mask]
     }
 }
 
-impl<S: Lanes> Packets<S> for Pair<f32x16<S>> {
-    const COUNT: usize = 2;
-
-    #[inline(always)]
-    fn zero(simd: S) -> Self {
-        let zero = SimdBase::splat(simd, 0.0);
-        Self(zero, zero)
-    }
-    #[inline(always)]
-    fn take(simd: S, [first, second]: &mut [&[Packet<f32>]; 2]) -> Self {
-        Self(next(simd, first), next(simd, second))
-    }
-    #[inline(always)]
-    fn parts(self) -> [f32x16<S>; 2] {
-        [self.0, self.1]
-    }
-    #[inline(always)]
-    fn mask_of(simd: S, [first, second]: [u16; 2]) -> Self::SelectMask {
-        Pair(simd.mask_from_bits(first), simd.mask_from_bits(second))
-    }
-    #[inline(always)]
-    fn ints_of(simd: S, [first, second]: [[u32; LANES]; 2]) -> Self::Int {
-        Pair(ints(simd, first), ints(simd, second))
-    }
-    #[inline(always)]
-    fn parts_of_ints(ints: Self::Int) -> [i32x16<S>; 2] {
-        [ints.0, ints.1]
-    }
-    #[inline(always)]
-    fn parts_of_mask(mask: Self::SelectMask) -> [mask32x16<S>; 2] {
-        [mask.0, mask.1]
-    }
+/// Implements pairs of numbers that stand for half as many packets.
+macro_rules! pair {
+    ($half:ty, $n:literal: $($first:ident)+ | $($second:ident)+) => {
+        impl<S: Lanes> Packets<S, $n> for Pair<$half> {
+            #[inline(always)]
+            fn zero(simd: S) -> Self {
+                let zero = <$half>::zero(simd);
+                Self(zero, zero)
+            }
+            #[inline(always)]
+            fn take(simd: S, left: &mut [&[Packet<f32>]; $n]) -> Self {
+                let [$($first,)+ $($second),+] = *left;
+                let (mut of_first, mut of_second) = ([$($first),+], [$($second),+]);
+                let taken = Self(
+                    <$half>::take(simd, &mut of_first),
+                    <$half>::take(simd, &mut of_second),
+                );
+                let ([$($first),+], [$($second),+]) = (of_first, of_second);
+                *left = [$($first,)+ $($second),+];
+                taken
+            }
+            #[inline(always)]
+            fn parts(self) -> [f32x16<S>; $n] {
+                let ([$($first),+], [$($second),+]) = (self.0.parts(), self.1.parts());
+                [$($first,)+ $($second),+]
+            }
+            #[inline(always)]
+            fn mask_of(simd: S, [$($first,)+ $($second),+]: [u16; $n]) -> Self::SelectMask {
+                Pair(
+                    <$half>::mask_of(simd, [$($first),+]),
+                    <$half>::mask_of(simd, [$($second),+]),
+                )
+            }
+            #[inline(always)]
+            fn ints_of(
+                simd: S,
+                [$($first,)+ $($second),+]: [&[u32; LANES]; $n],
+            ) -> Self::Int {
+                Pair(
+                    <$half>::ints_of(simd, [$($first),+]),
+                    <$half>::ints_of(simd, [$($second),+]),
+                )
+            }
+            #[inline(always)]
+            fn parts_of_ints(ints: Self::Int) -> [i32x16<S>; $n] {
+                let [$($first),+] = <$half>::parts_of_ints(ints.0);
+                let [$($second),+] = <$half>::parts_of_ints(ints.1);
+                [$($first,)+ $($second),+]
+            }
+            #[inline(always)]
+            fn parts_of_mask(mask: Self::SelectMask) -> [mask32x16<S>; $n] {
+                let [$($first),+] = <$half>::parts_of_mask(mask.0);
+                let [$($second),+] = <$half>::parts_of_mask(mask.1);
+                [$($first,)+ $($second),+]
+            }
+        }
+    };
 }
+pair! { f32x16<S>, 2: a | b }
+pair! { Pair<f32x16<S>>, 4: a b | c d }
 
 #[inline(always)]
-fn ints<S: Lanes>(simd: S, lanes: [u32; LANES]) -> i32x16<S> {
-    <u32x16<S> as SimdBase<S>>::load_array(simd, lanes).bitcast()
+fn ints<S: Lanes>(simd: S, lanes: &[u32; LANES]) -> i32x16<S> {
+    <u32x16<S> as SimdBase<S>>::load_array_ref(simd, lanes).bitcast()
 }
 
 /// The next scalar of a packet.
@@ -110,43 +132,40 @@ fn next<S: Lanes>(simd: S, left: &mut &[Packet<f32>]) -> f32x16<S> {
     }
 }
 
-/// Scalars of one packet, or of each of two, read in order.
-pub(super) struct PacketSource<'a, S> {
+/// Scalars of each of `N` packets, read in order.
+pub(super) struct PacketSource<'a, S, const N: usize> {
     pub(super) simd: S,
-    pub(super) left: [&'a [Packet<f32>]; 2],
+    pub(super) left: [&'a [Packet<f32>]; N],
     /// Derivatives along x and along y, of each packet.
-    pub(super) derivatives: [[&'a [Packet<f32>]; 2]; 2],
+    pub(super) derivatives: [[&'a [Packet<f32>]; N]; 2],
 }
 
-impl<'a, S> PacketSource<'a, S> {
+impl<'a, S, const N: usize> PacketSource<'a, S, N> {
     /// Scalars without derivatives.
     #[inline(always)]
-    pub(super) fn new(simd: S, left: [&'a [Packet<f32>]; 2]) -> Self {
+    pub(super) fn new(simd: S, left: [&'a [Packet<f32>]; N]) -> Self {
         Self {
             simd,
             left,
-            derivatives: [[&[]; 2]; 2],
+            derivatives: [[&[]; N]; 2],
         }
     }
 
     /// The scalars of fragments, of which each packet has `varyings`, then derivatives.
     #[inline(always)]
-    pub(super) fn of_fragments(simd: S, packets: [&'a [Packet<f32>]; 2], varyings: usize) -> Self {
-        let [first, second] = packets;
-        let each = (first.len() - varyings) / 2;
-        let (first, derivatives) = first.split_at(varyings);
-        let (first_x, first_y) = derivatives.split_at(each);
-        let (second, derivatives) = second.split_at(varyings);
-        let (second_x, second_y) = derivatives.split_at(each);
-        Self {
-            simd,
-            left: [first, second],
-            derivatives: [[first_x, second_x], [first_y, second_y]],
+    pub(super) fn of_fragments(simd: S, packets: [&'a [Packet<f32>]; N], varyings: usize) -> Self {
+        let mut source = Self::new(simd, packets);
+        for (at, packet) in packets.into_iter().enumerate() {
+            let (left, derivatives) = packet.split_at(varyings);
+            let [along_x, along_y] = &mut source.derivatives;
+            source.left[at] = left;
+            (along_x[at], along_y[at]) = derivatives.split_at(derivatives.len() / 2);
         }
+        source
     }
 }
 
-impl<S: Lanes, R: Packets<S>> Source<R> for PacketSource<'_, S> {
+impl<S: Lanes, R: Packets<S, N>, const N: usize> Source<R> for PacketSource<'_, S, N> {
     #[inline(always)]
     fn take(&mut self) -> R {
         R::take(self.simd, &mut self.left)

@@ -1,6 +1,6 @@
-//! Packet pairs: lanes, masks and tables, and shaders that run two packets at a time.
+//! Packet pairs: lanes, masks and tables, and shaders that run two or four packets at a time.
 
-use crate::shader::{FragmentBatch, VertexOut};
+use crate::shader::{AtATime, FragmentBatch, VertexOut};
 use crate::{
     Bindings, FragmentIn, FragmentOut, Int, Pair, Program, Quad, Real, ShaderProgram, Vec2, Vec4,
     VertexIn, shader,
@@ -32,6 +32,19 @@ fn a_mask_has_a_bit_for_each_lane_of_both() {
     }
     let above = NUMBERS.gt(NUMBERS.splat(7.5));
     assert!(<Pair<Quad> as Real>::any(above), "only in the second half");
+}
+
+#[test]
+fn pairs_of_pairs_have_the_lanes_of_four_numbers() {
+    type Four<R> = Pair<Pair<R>>;
+    let four = Pair(NUMBERS, NUMBERS + 8.0);
+    assert_eq!(<Four<Quad> as Real>::LANES, 16);
+    assert!((0..16).all(|lane| four.lane(lane) == lane as f32 + 1.0));
+    assert_eq!(four.with_lanes(|lane| lane as f32 + 1.0), four);
+    let ends = four.lt(2.0) | four.gt(15.0);
+    assert_eq!(<Four<Quad> as Real>::mask_bits(ends), 0x8001);
+    assert!(<Four<Quad> as Real>::any(four.gt(15.5)), "only in the last");
+    assert!(!<Four<Quad> as Real>::any(four.gt(16.0)));
 }
 
 #[test]
@@ -78,9 +91,9 @@ shader! {
     }
 }
 
-/// The coverage and the output bits for some packets: shaded by pairs, one by one, or as the level
+/// The coverage and the output bits for some packets: shaded so many at a time, or as the level
 /// does.
-fn shade(pairs: Option<bool>, level: Level, count: usize) -> (Vec<u16>, Vec<u32>) {
+fn shade(at_a_time: Option<AtATime>, level: Level, count: usize) -> (Vec<u16>, Vec<u32>) {
     let numbers = |scalars: usize| -> Vec<Packet<f32>> {
         let number = |n: usize| (n * 7919 % 1009) as f32 / 1024.0 + 0.015_625;
         (0..count * scalars)
@@ -104,8 +117,8 @@ fn shade(pairs: Option<bool>, level: Level, count: usize) -> (Vec<u16>, Vec<u32>
         depths: &mut depths,
         ..FragmentBatch::default()
     };
-    match pairs {
-        Some(pairs) => program.run_fragments_by(pairs, level, &bindings, batch),
+    match at_a_time {
+        Some(packets) => program.run_fragments_by(packets, level, &bindings, batch),
         None => program.run_fragments(level, &bindings, batch),
     }
     let bits = colors
@@ -117,15 +130,22 @@ fn shade(pairs: Option<bool>, level: Level, count: usize) -> (Vec<u16>, Vec<u32>
 }
 
 #[test]
-fn two_packets_at_a_time_give_the_bits_of_one() {
-    for count in [0, 1, 2, 5] {
-        let expected = shade(Some(false), Level::all_available()[0], count);
+fn several_packets_at_a_time_give_the_bits_of_one() {
+    // As the level does: four at a time, then two.
+    assert!(ShaderProgram::new(StepsTowardsOne).loops_long());
+    for count in [0, 1, 2, 4, 5, 11] {
+        let expected = shade(Some(AtATime::One), Level::all_available()[0], count);
         for level in Level::all_available() {
-            for pairs in [Some(false), Some(true), None] {
+            for packets in [
+                Some(AtATime::One),
+                Some(AtATime::Two),
+                Some(AtATime::Four),
+                None,
+            ] {
                 assert_eq!(
-                    shade(pairs, level, count),
+                    shade(packets, level, count),
                     expected,
-                    "{count} packets at {level:?}, by pairs: {pairs:?}"
+                    "{count} packets at {level:?}, at a time: {packets:?}"
                 );
             }
         }

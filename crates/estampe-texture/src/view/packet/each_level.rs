@@ -151,7 +151,7 @@ impl Packet<'_> {
         let (columns, rows) = (centers(column, side), centers(row, side));
         let across_x = Real::abs(columns[0]).gt(side) | Real::abs(columns[1]).gt(side);
         let across_y = Real::abs(rows[0]).gt(side) | Real::abs(rows[1]).gt(side);
-        *again |= f32x16::mask_bits(across_x & across_y);
+        *again |= u32::from(s.bits_of_mask(across_x & across_y));
         let face = Face::of(spots.direction);
         // The image of the first face of each lane's cube.
         let cube = spots.slice - face.index;

@@ -349,7 +349,8 @@ impl Packet<'_> {
         } else {
             Places::fixed(spots.slice, like)
         };
-        *again |= outside & level.lanes;
+        // No bit is lost: the lanes of a packet are sixteen.
+        *again |= u32::try_from(outside & u64::from(level.lanes)).unwrap_or(u32::MAX);
         let is_linear = filter == FilterMode::Linear;
         let count = |axis: usize| if is_linear && axes > axis { 2 } else { 1 };
         let counts = [count(0), count(1)];

@@ -113,7 +113,7 @@ impl Packet<'_> {
         spots: &Spots<R>,
         axis: usize,
         filter: FilterMode,
-        outside: &mut u32,
+        outside: &mut u64,
     ) -> Places<R> {
         let (count, length) = (plane.sides[axis], plane.size[axis]);
         let is_linear = filter == FilterMode::Linear;
@@ -160,7 +160,7 @@ impl Packet<'_> {
         offset: i32,
         count: i32,
         is_linear: bool,
-        outside: &mut u32,
+        outside: &mut u64,
     ) -> Places<R> {
         let whole = at.floor();
         let first = whole.to_int_within_range();

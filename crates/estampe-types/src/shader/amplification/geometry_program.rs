@@ -247,7 +247,7 @@ impl<R: Real, T: GeometryShader> Emit<R, T::Output<R>> for Emitter<'_, T> {
         let words = interface.record_words();
         let zero = vertex.position.x.splat(0.0);
         let (mut first, mut kept) = ([0; MAX_LANES], 0);
-        let wanted = R::mask_bits(lanes) & self.active;
+        let wanted = R::mask_bits(lanes) & u64::from(self.active);
         for (lane, first) in first.iter_mut().enumerate().take(R::LANES) {
             if wanted >> lane & 1 == 0 {
                 continue;
@@ -271,7 +271,7 @@ impl<R: Real, T: GeometryShader> Emit<R, T::Output<R>> for Emitter<'_, T> {
 
     #[inline(always)]
     fn end_primitive(&mut self, lanes: R::SelectMask) {
-        let wanted = R::mask_bits(lanes) & self.active;
+        let wanted = R::mask_bits(lanes) & u64::from(self.active);
         for lane in 0..R::LANES {
             if wanted >> lane & 1 == 0 {
                 continue;

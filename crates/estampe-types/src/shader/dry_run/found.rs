@@ -22,6 +22,8 @@ pub(super) struct Found {
     pub(super) cull_distances: usize,
     /// A run read words of bindings.
     pub(super) reads_words: bool,
+    /// The most questions about masks that a run of the fragment shader asked.
+    pub(super) questions: u32,
 }
 
 /// Words of bindings are read as 0, 1, … in turn, fewer than this.
@@ -86,6 +88,7 @@ impl Found {
             clip_distances: self.clip_distances.max(other.clip_distances),
             cull_distances: self.cull_distances.max(other.cull_distances),
             reads_words: self.reads_words | other.reads_words,
+            questions: self.questions.max(other.questions),
         }
     }
 

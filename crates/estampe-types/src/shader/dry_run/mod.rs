@@ -19,6 +19,8 @@
 //!   computed.
 //! * **A colour that is passed through** consists of the first four scalars of the varyings, which
 //!   still have their marks when they are returned.
+//! * **Long loops** are those in which one run asks dozens of questions. It changes no result that
+//!   they are not found, or wrongly.
 //! * **Stores** are found if the stored lanes exclude helper invocations, as they must.
 //!
 //! The rejected alternative, accessors in place of the fields of `FragmentIn`, would find less: a
@@ -42,12 +44,32 @@ use recorder::Facts;
 /// # Errors
 /// [`ShaderError`] says how the body contradicts a constant or a limit.
 pub fn interface_of<T: Shader>(shader: &T) -> Result<Interface, ShaderError> {
+    examine(shader).map(|examined| examined.interface)
+}
+
+/// What dry runs tell of a shader.
+#[derive(Debug, Default)]
+pub(super) struct Examined {
+    pub(super) interface: Interface,
+    /// Fragments have long loops that ask each time whether lanes are left. What depends on it may
+    /// only be how fast they are shaded.
+    pub(super) loops_long: bool,
+}
+
+/// The questions about masks of one run from which on the loops of a body are long.
+const LONG: u32 = 32;
+
+/// [`interface_of`], and whether fragments have long loops.
+pub(super) fn examine<T: Shader>(shader: &T) -> Result<Examined, ShaderError> {
     let declared = declared::<T>()?;
     let mut found = Found::of(shader, &declared)?;
     if T::TAKES_DERIVATIVES {
         found.facts = found.facts.and(Facts::DERIVATIVES);
     }
-    Ok(found.widen(declared))
+    Ok(Examined {
+        loops_long: found.questions >= LONG,
+        interface: found.widen(declared),
+    })
 }
 
 /// The interface that a shader's types and constants declare.

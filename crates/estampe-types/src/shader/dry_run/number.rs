@@ -270,7 +270,7 @@ impl<'a> Real for Recorded<'a> {
         mask.recorder.answer(Quad::any(mask.used()))
     }
     #[inline(never)]
-    fn mask_bits(mask: Self::SelectMask) -> u32 {
+    fn mask_bits(mask: Self::SelectMask) -> u64 {
         mask.recorder.note(Facts::UNKNOWN);
         let bits = Quad::mask_bits(mask.used());
         if mask.input().has(Facts::HELPER) {

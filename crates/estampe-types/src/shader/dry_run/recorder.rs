@@ -174,6 +174,11 @@ impl Recorder {
         Facts(self.facts.load(Relaxed))
     }
 
+    /// The number of questions that were asked.
+    pub(super) fn questions(&self) -> u32 {
+        self.questions.load(Relaxed)
+    }
+
     pub(super) fn misuse(self) -> Option<ShaderError> {
         self.misuse.into_inner()
     }
@@ -191,7 +196,7 @@ impl Recorder {
     }
 
     /// The bits of a mask, in agreement with the answers about it.
-    pub(super) fn answer_bits(&self, truth: u32) -> u32 {
+    pub(super) fn answer_bits(&self, truth: u64) -> u64 {
         match self.next_question() {
             Some(true) => truth,
             Some(false) => 0,

@@ -153,10 +153,14 @@ pub(super) fn fragment<T: Shader>(
         }
     };
     let found = unwound(shade)?;
-    let facts = recorder.facts();
+    let (facts, questions) = (recorder.facts(), recorder.questions());
     match recorder.misuse() {
         Some(error) => Err(error),
-        None => Ok(Found { facts, ..found }),
+        None => Ok(Found {
+            facts,
+            questions,
+            ..found
+        }),
     }
 }
 
