@@ -171,10 +171,12 @@ impl<T: Shader> ShaderProgram<T> {
     /// many are done: all of them, or none.
     ///
     /// An iteration of a long loop waits for the one before, and has more operations than the
-    /// processor looks ahead: two packets leave half of its units idle.
+    /// processor looks ahead: two packets leave half of its units idle. Only of shaders with few
+    /// varyings, as are those over a whole picture: of every shader another copy at this width took
+    /// the compiler four times as long for physically based surfaces.
     #[inline(always)]
     fn by_fours<S: Lanes>(&self, simd: S, bindings: &Bindings, of: Part<'_>) -> usize {
-        if const { S::IN_ONE_REGISTER } {
+        if const { S::IN_ONE_REGISTER && size_of::<T::Varyings<f32>>() <= FEW_VARYINGS } {
             let end = of.1.end;
             self.fragments::<_, Pair<Pair<f32x16<S>>>, 4>(simd, bindings, of);
             end
@@ -258,6 +260,9 @@ impl<T: Shader> ShaderProgram<T> {
         }
     }
 }
+
+/// The bytes of four scalars.
+const FEW_VARYINGS: usize = 4 * size_of::<f32>();
 
 /// A batch, and which of its packets are shaded.
 type Part<'a> = (FragmentBatch<'a>, Range<usize>);
