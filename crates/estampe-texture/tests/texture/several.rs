@@ -1,5 +1,5 @@
-//! Shortcuts give the same bits: several textures sampled at the same coordinates, and opaque
-//! textures.
+//! Shortcuts give the same bits: several textures sampled at the same coordinates, four packets at a
+//! time, and opaque textures.
 
 use super::{Colors, Lod, Random, noise, sample_packet};
 use estampe_simd::{LANES, Lanes, Level, SimdBase, dispatch, f32x16};
@@ -7,7 +7,7 @@ use estampe_texture::{
     AddressMode, FilterMode, Limits, MipGeneration, Rgba8Texture, SamplerDescriptor, TextureFormat,
     create_texture,
 };
-use estampe_types::{Quad, Vec2, Vec4};
+use estampe_types::{Pair, Quad, Real, Vec2, Vec4};
 
 fn sample_both(level: Level, textures: [&Rgba8Texture; 2], uv: [[f32; LANES]; 2]) -> [Colors; 2] {
     #[inline(always)]
@@ -86,6 +86,52 @@ fn several_at_once_are_those_alone() {
     let [one, two] = Rgba8Texture::sample_all([&textures[0], &textures[3]], uv);
     assert_eq!([one, two], [textures[0].sample(uv), textures[3].sample(uv)]);
     assert_eq!(Rgba8Texture::sample_all([], uv), []);
+}
+
+/// The colours of both textures, and of the first one alone, in each of four packets.
+type OfFour = [[Colors; 3]; 4];
+
+/// Samples four packets at a time.
+fn sample_four(level: Level, both: [&Rgba8Texture; 2], uv: &[[[f32; LANES]; 2]; 4]) -> OfFour {
+    #[inline(always)]
+    fn wide<S: Lanes>(simd: S, both: [&Rgba8Texture; 2], uv: &[[[f32; LANES]; 2]; 4]) -> OfFour {
+        let zero: f32x16<S> = SimdBase::splat(simd, 0.0);
+        let zero = Pair(Pair(zero, zero), Pair(zero, zero));
+        let axis = |k: usize| zero.with_lanes(|lane| uv[lane / LANES][k][lane % LANES]);
+        let uv = Vec2::new(axis(0), axis(1));
+        let [first, second] = Rgba8Texture::sample_all(both, uv);
+        let colors = [first, second, both[0].sample(uv)];
+        let of_lane = |color: &Vec4<Pair<Pair<f32x16<S>>>>, lane: usize| {
+            let Vec4 { x, y, z, w } = color;
+            [x.lane(lane), y.lane(lane), z.lane(lane), w.lane(lane)]
+        };
+        std::array::from_fn(|packet| {
+            let lanes = |color| std::array::from_fn(|lane| of_lane(color, packet * LANES + lane));
+            colors.each_ref().map(lanes)
+        })
+    }
+    dispatch!(level, s => wide(s, both, uv))
+}
+
+#[test]
+fn four_packets_at_a_time_are_those_alone() {
+    let trilinear = SamplerDescriptor::trilinear_repeat();
+    let textures = [(64, 32), (64, 33)]
+        .map(|(width, height)| (noise(width, height, TextureFormat::Rgba8Unorm), trilinear))
+        .map(|(texture, sampler)| Rgba8Texture::new(texture, sampler));
+    let [first, second] = &textures;
+    let random = &mut Random::new(41);
+    for level in Level::all_available() {
+        for _ in 0..100 {
+            let uv: [_; 4] = std::array::from_fn(|_| place(random));
+            let found = sample_four(level, [first, second], &uv);
+            for (found, uv) in found.iter().zip(uv) {
+                let alone = [first, second, first]
+                    .map(|texture| sample_packet(level, texture, uv, Lod::FromQuad));
+                assert_eq!(*found, alone, "{level:?} {uv:?}");
+            }
+        }
+    }
 }
 
 #[test]

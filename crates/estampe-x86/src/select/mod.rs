@@ -227,10 +227,6 @@ const MAX_PAIRED: usize = 2048;
 /// so that they take uniform branches together, and what they do to memory has the order that it
 /// has if one ends before the other begins.
 fn can_pair(kernel: &Kernel, plan: &Plan) -> bool {
-    let is_written = |at: u32| {
-        let buffer = kernel.interface.buffers.get(at as usize);
-        buffer.is_none_or(|buffer| buffer.is_written)
-    };
     let (mut ops, mut effects, mut stored, mut loaded) = (0, 0, None, Vec::new());
     for (at, block) in kernel.blocks.iter().enumerate() {
         for (op, first) in block.ops.iter().filter(|_| plan.is_reached[at]) {
@@ -241,7 +237,7 @@ fn can_pair(kernel: &Kernel, plan: &Plan) -> bool {
                 // Arrays are those of one packet.
                 Op::StoreLocal { .. } => true,
                 Op::LoadLocal { array, .. } => plan.is_array_stored(*array),
-                Op::LoadBuffer { buffer, .. } => is_written(*buffer),
+                Op::LoadBuffer { buffer, .. } => plan.is_written(*buffer),
                 _ => op.has_effect() && is_in_loop(kernel, at),
             };
             if is_ordered {

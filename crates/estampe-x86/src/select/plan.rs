@@ -6,7 +6,7 @@
 
 use estampe_ir::interface::Input;
 use estampe_ir::lanes::{Kernel, Terminator};
-use estampe_ir::op::{TextureQuery, Unary};
+use estampe_ir::op::{Memory, TextureQuery, Unary};
 use estampe_ir::{Op, Value};
 
 /// The blocks and values of a kernel.
@@ -23,6 +23,9 @@ pub(crate) struct Plan {
     is_hoisted: Vec<bool>,
     /// True if the kernel stores texels.
     stores_texels: bool,
+    /// Buffers that the kernel may change: those to which it may store, if it stores to any. Most
+    /// programs declare buffers for writing that only some of their kernels write.
+    is_written: Vec<bool>,
     /// Arrays to which something is stored. The others are tables of constants.
     is_array_stored: Vec<bool>,
     /// Masks in which a quad has all of its lanes or none of those that run.
@@ -43,6 +46,7 @@ impl Plan {
             is_splat: vec![true; values],
             is_hoisted: vec![false; values],
             stores_texels: stores_texels(kernel),
+            is_written: written_buffers(kernel),
             is_array_stored: vec![false; kernel.interface.locals.len()],
             has_whole_quads: vec![false; values],
             constants: vec![None; values],
@@ -99,6 +103,12 @@ impl Plan {
             return false;
         };
         op.sampler.is_some() || op.query == TextureQuery::Load && !self.stores_texels
+    }
+
+    /// True if the kernel may change a buffer.
+    pub(crate) fn is_written(&self, buffer: u32) -> bool {
+        let is_written = self.is_written.get(buffer as usize);
+        is_written.is_none_or(|&is_written| is_written)
     }
 
     /// The word that a value always is.
@@ -196,10 +206,6 @@ impl Plan {
 
     fn hoist(&mut self, kernel: &Kernel) {
         let interface = &kernel.interface;
-        let is_written = |at: u32| {
-            let buffer = interface.buffers.get(at as usize);
-            buffer.is_none_or(|buffer| buffer.is_written)
-        };
         let mut covers = vec![false; kernel.values.len()];
         // In the order of blocks every operand comes before, except parameters, which stay.
         for block in &kernel.blocks {
@@ -209,7 +215,7 @@ impl Plan {
                 {
                     *is_stored = true;
                 }
-                let mut is_hoisted = op.is_pure(is_written);
+                let mut is_hoisted = op.is_pure(|buffer| self.is_written(buffer));
                 if let Op::Input(at) | Op::InputMask(at) = op {
                     let input = interface.inputs.get(*at as usize);
                     is_hoisted = input.is_some_and(|input| input.is_uniform());
@@ -277,4 +283,64 @@ impl Plan {
 fn stores_texels(kernel: &Kernel) -> bool {
     let mut ops = kernel.blocks.iter().flat_map(|block| &block.ops);
     ops.any(|(op, _)| matches!(op, Op::Texture(op) if op.query == TextureQuery::Store))
+}
+
+/// For each buffer, whether the kernel may change it. Where it changes one, another one may be the
+/// same memory.
+fn written_buffers(kernel: &Kernel) -> Vec<bool> {
+    let mut ops = kernel.blocks.iter().flat_map(|block| &block.ops);
+    let writes = ops.any(|(op, _)| match op {
+        Op::StoreBuffer { .. } => true,
+        Op::Atomic { memory, .. } | Op::CompareExchange { memory, .. } => {
+            matches!(memory, Memory::Buffer(_))
+        }
+        _ => false,
+    });
+    let buffers = kernel.interface.buffers.iter();
+    buffers.map(|buffer| writes && buffer.is_written).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Plan;
+    use estampe_ir::interface::{BufferSlot, Input, Output, Stage};
+    use estampe_ir::lanes::Kernel;
+    use estampe_ir::tree::Builder;
+    use estampe_ir::{Op, Value};
+
+    /// A kernel that loads a word of a buffer that is declared as written, and stores another one
+    /// or not; the plan, and the word.
+    fn planned(stores: bool) -> (Plan, Value) {
+        let mut b = Builder::new(Stage::Compute);
+        b.interface_mut().buffers.push(BufferSlot {
+            group: 0,
+            binding: 0,
+            is_written: true,
+        });
+        let offset = b.word(8);
+        let loaded = b.op(Op::LoadBuffer { buffer: 0, offset })[0];
+        if stores {
+            let (value, mask) = (b.word(1), b.input(Input::Cover));
+            b.op(Op::StoreBuffer {
+                buffer: 0,
+                offset,
+                value,
+                mask,
+            });
+        }
+        let kernel = Kernel::from_tree(&b.finish(vec![(Output::Varying(0), loaded)]));
+        let mut ops = kernel.blocks.iter().flat_map(|block| &block.ops);
+        let found = ops.find(|(op, _)| matches!(op, Op::LoadBuffer { .. }));
+        let loaded = found.map_or(Value(0), |(_, value)| *value);
+        (Plan::new(&kernel), loaded)
+    }
+
+    #[test]
+    fn words_of_buffers_that_no_kernel_stores_to_are_loaded_once() {
+        for stores in [false, true] {
+            let (plan, loaded) = planned(stores);
+            assert_eq!(plan.is_written(0), stores);
+            assert_eq!(plan.is_hoisted(loaded), !stores);
+        }
+    }
 }

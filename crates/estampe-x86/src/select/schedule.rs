@@ -231,11 +231,6 @@ impl List {
             met: Vec::new(),
         };
         let ops = &kernel.blocks[at].ops;
-        let is_written = |buffer: u32| {
-            let buffers = &kernel.interface.buffers;
-            let buffer = buffers.get(buffer as usize);
-            buffer.is_none_or(|buffer| buffer.is_written)
-        };
         let count = nodes.len();
         let mut list = Self {
             uses: vec![Vec::new(); count],
@@ -265,7 +260,7 @@ impl List {
             });
             list.uses[node].sort_unstable();
             list.uses[node].dedup();
-            let is_free = op.is_pure(is_written)
+            let is_free = op.is_pure(|buffer| scheduler.plan.is_written(buffer))
                 || scheduler.plan.can_join(op)
                 || matches!(
                     op,
