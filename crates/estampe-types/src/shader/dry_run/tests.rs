@@ -370,3 +370,12 @@ fn a_dry_run_computes_what_quads_compute() {
     assert_eq!(recorded.map(Recorded::used), compute(quad));
     assert_eq!(recorder.facts(), Facts::POSITION.and(Facts::DERIVATIVES));
 }
+
+#[test]
+fn long_loops_are_those_that_ask_often() {
+    let is_long = |does| super::examine(&Doing(does)).map(|examined| examined.loops_long);
+    for does in [Does::Nothing, Does::DiscardOnBranch, Does::Store] {
+        assert_eq!(is_long(does), Ok(false), "{does:?}");
+    }
+    assert_eq!(is_long(Does::LoopForever), Ok(true));
+}
