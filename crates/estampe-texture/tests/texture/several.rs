@@ -1,5 +1,5 @@
-//! Shortcuts give the same bits: several textures sampled at the same coordinates, four packets at a
-//! time, and opaque textures.
+//! Shortcuts give the same bits: several textures sampled at the same coordinates, four packets at
+//! a time, and opaque textures.
 
 use super::{Colors, Lod, Random, noise, sample_packet};
 use estampe_simd::{LANES, Lanes, Level, SimdBase, dispatch, f32x16};
