@@ -261,8 +261,8 @@ impl<T: Shader> ShaderProgram<T> {
     }
 }
 
-/// The bytes of four scalars.
-const FEW_VARYINGS: usize = 4 * size_of::<f32>();
+/// The bytes of two scalars, a place in the picture.
+const FEW_VARYINGS: usize = 2 * size_of::<f32>();
 
 /// A batch, and which of its packets are shaded.
 type Part<'a> = (FragmentBatch<'a>, Range<usize>);
