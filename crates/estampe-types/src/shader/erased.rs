@@ -176,7 +176,7 @@ impl<T: Shader> ShaderProgram<T> {
     /// the compiler four times as long for physically based surfaces.
     #[inline(always)]
     fn by_fours<S: Lanes>(&self, simd: S, bindings: &Bindings, of: Part<'_>) -> usize {
-        if const { S::IN_ONE_REGISTER && size_of::<T::Varyings<f32>>() <= FEW_VARYINGS } {
+        if const { S::IN_ONE_REGISTER && FOURS && size_of::<T::Varyings<f32>>() <= FEW_VARYINGS } {
             let end = of.1.end;
             self.fragments::<_, Pair<Pair<f32x16<S>>>, 4>(simd, bindings, of);
             end
@@ -260,6 +260,9 @@ impl<T: Shader> ShaderProgram<T> {
         }
     }
 }
+
+/// Dev builds are not for speed: there the copies would only take time to compile.
+const FOURS: bool = !cfg!(debug_assertions);
 
 /// The bytes of two scalars, a place in the picture.
 const FEW_VARYINGS: usize = 2 * size_of::<f32>();
