@@ -53,24 +53,12 @@ impl ColorWriter<'_> {
         batch: &ShadedBatch<'_>,
         stored: &mut [[u32; LANES]],
     ) {
-        let (writer, index) = (self.target, self.index);
-        match (writer.codec.family(), &writer.equation) {
+        match (self.target.codec.family(), &self.target.equation) {
             (Family::Rgba8(codec), Equation::Replace) if const { !S::IS_SCALAR } => {
-                let codec = Common(codec);
-                Target {
-                    writer,
-                    codec,
-                    index,
-                }
-                .write(s, Replace, batch, stored);
+                self.by(Common(codec)).write(s, Replace, batch, stored);
             }
             (Family::Rgba8(codec), Equation::Over(over)) if const { !S::IS_SCALAR } => {
-                let codec = Common(codec);
-                let target = Target {
-                    writer,
-                    codec,
-                    index,
-                };
+                let target = self.by(Common(codec));
                 let mut common = CommonOver::<0>::EQUATIONS.iter();
                 match common.position(|equation| equation == over) {
                     Some(0) => target.write(s, CommonOver::<0>, batch, stored),
@@ -80,25 +68,13 @@ impl ColorWriter<'_> {
                 }
             }
             (Family::Half2(codec), Equation::Replace) if const { !S::IS_SCALAR } => {
-                let codec = Common(codec);
-                Target {
-                    writer,
-                    codec,
-                    index,
-                }
-                .write(s, Replace, batch, stored);
+                self.by(Common(codec)).write(s, Replace, batch, stored);
             }
             (Family::Half2(codec), Equation::Over(over)) if const { !S::IS_SCALAR } => {
-                let codec = Common(codec);
-                Target {
-                    writer,
-                    codec,
-                    index,
-                }
-                .write(s, *over, batch, stored);
+                self.by(Common(codec)).write(s, *over, batch, stored);
             }
             (_, equation) => {
-                let codec = writer.codec;
+                let codec = self.target.codec;
                 let constant = [
                     clamp_one(self.constant[0], codec.range()),
                     clamp_one(self.constant[1], codec.range()),
@@ -114,13 +90,18 @@ impl ColorWriter<'_> {
                         constant,
                     }),
                 };
-                Target {
-                    writer,
-                    codec,
-                    index,
-                }
-                .write(s, kernel, batch, stored);
+                self.by(codec).write(s, kernel, batch, stored);
             }
+        }
+    }
+
+    /// The target, whose texels are accessed by a codec.
+    #[inline(always)]
+    fn by<A>(&self, codec: A) -> Target<'_, A> {
+        Target {
+            writer: self.target,
+            codec,
+            index: self.index,
         }
     }
 
