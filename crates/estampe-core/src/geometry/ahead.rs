@@ -14,7 +14,7 @@ const LINE: usize = 64;
 #[inline(always)]
 pub(super) fn prefetch<S: Lanes, T>(s: S, list: &[T], from: usize, len: usize) {
     if let Some(part) = list.get(from..from.saturating_add(len)) {
-        for line in part.chunks(const { LINE / size_of::<T>() }) {
+        for line in part.chunks(const { LINE.div_ceil(size_of::<T>()) }) {
             s.prefetch(&line[0]);
         }
     }

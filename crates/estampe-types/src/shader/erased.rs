@@ -261,8 +261,9 @@ impl<T: Shader> ShaderProgram<T> {
     }
 }
 
-/// Dev builds are not for speed: there the copies would only take time to compile.
-const FOURS: bool = !cfg!(debug_assertions);
+/// Dev builds are not for speed: there the copies would only take time to compile. This crate's
+/// tests have them.
+const FOURS: bool = !cfg!(debug_assertions) || cfg!(test);
 
 /// The bytes of two scalars, a place in the picture.
 const FEW_VARYINGS: usize = 2 * size_of::<f32>();
