@@ -3,7 +3,7 @@
 use estampe::{BufferError, InspectError, PipelineError, RenderPassError, TextureError};
 use estampe_transparency::TransparencyError;
 
-/// Errors of [`render`].
+/// Errors of [`render`](crate::render).
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum RenderError {
@@ -54,7 +54,7 @@ pub enum RenderError {
     /// Layers or sums of transparent surfaces cannot be drawn.
     #[error("transparent surfaces: {0}")]
     Transparency(#[from] TransparencyError),
-    /// The bind groups of [`RenderOptions::program`] cannot be made.
+    /// The bind groups of [`RenderOptions::program`](crate::RenderOptions::program) cannot be made.
     #[error("{0}")]
     Bindings(String),
     /// A pixel cannot be inspected.
