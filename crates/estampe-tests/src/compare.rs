@@ -3,7 +3,7 @@
 use crate::Random;
 use crate::case::Case;
 use crate::expected_paths::ExpectedPaths;
-use crate::fast_path::{self, Drawn, all_devices, some_devices};
+use crate::fast_path::{self, Drawn, all_devices, devices_of_seed, some_devices};
 use crate::inspection;
 use crate::oracle::{self, Image};
 use estampe::{Device, Statistics, TilePath};
@@ -44,7 +44,7 @@ pub fn check_paths(
         let case = make(&mut Random::new(topic, seed));
         let devices = match factor {
             Some(_) => all_devices(),
-            None => some_devices(seed),
+            None => devices_of_seed(seed),
         };
         let image = match compare(&case, &devices, &mut statistics) {
             Ok(image) => image,

@@ -50,6 +50,17 @@ pub fn some_devices(turn: u64) -> Vec<&'static Device> {
         .collect()
 }
 
+/// The devices that draw the random case of a seed: those of [`some_devices`], the scalar level only
+/// of every third seed. In dev builds it takes as long as all others together.
+#[must_use]
+pub fn devices_of_seed(seed: u64) -> Vec<&'static Device> {
+    let is_scalar_due = seed.is_multiple_of(3);
+    // The numbers of threads of every third seed rotate, too.
+    let mut devices = some_devices(seed + seed / 3);
+    devices.retain(|device| is_scalar_due || !device.level().is_scalar());
+    devices
+}
+
 /// The name of a device, for messages: its SIMD level and number of threads.
 #[must_use]
 pub fn name(device: &Device) -> String {

@@ -3,8 +3,9 @@
 //! for bit.
 //!
 //! A [`Case`] is a target and the draws into it, random from a seed. [`check`] draws cases with the
-//! oracle, and with the fast path at every SIMD level and at 1, 2 and 7 threads. It compares the
-//! bytes of the colours and the bits of the depths, and shrinks and prints a case that fails.
+//! oracle, and with the fast path at every SIMD level, the scalar one in every third case, and at
+//! 1, 2 and 7 threads. It compares the bytes of the colours and the bits of the depths, and shrinks
+//! and prints a case that fails.
 //!
 //! ```text
 //!   seed ─▶ random ─▶ geometry ─▶ case ─┬▶ oracle ────┐

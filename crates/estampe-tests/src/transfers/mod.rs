@@ -24,7 +24,7 @@ pub mod roles;
 pub mod sequence;
 
 use crate::Random;
-use crate::fast_path::{self, all_devices, some_devices};
+use crate::fast_path::{self, all_devices, devices_of_seed};
 use estampe::Device;
 use estampe_reference::transfer::copy::read_sample;
 use estampe_types::TextureAspect;
@@ -55,7 +55,7 @@ pub fn check(topic: &str, count: u64) -> Reached {
         let expected = Expected::of(&sequence);
         let devices = match factor {
             Some(_) => all_devices(),
-            None => some_devices(seed),
+            None => devices_of_seed(seed),
         };
         for device in devices {
             if let Err(difference) = compare(&sequence, &expected, device) {
