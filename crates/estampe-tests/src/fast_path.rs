@@ -50,8 +50,8 @@ pub fn some_devices(turn: u64) -> Vec<&'static Device> {
         .collect()
 }
 
-/// The devices that draw the random case of a seed: those of [`some_devices`], the scalar level only
-/// of every third seed. In dev builds it takes as long as all others together.
+/// The devices that draw the random case of a seed: those of [`some_devices`], the scalar level
+/// only of every third seed. In dev builds it takes as long as all others together.
 #[must_use]
 pub fn devices_of_seed(seed: u64) -> Vec<&'static Device> {
     let is_scalar_due = seed.is_multiple_of(3);
