@@ -42,32 +42,34 @@ pub(super) struct ShadingGroup {
     pub(super) sub_draw: u32,
 }
 
-/// Samples of a tile where a pixel has one sample, or four.
+/// Samples of a tile where a pixel has one.
 pub(super) const TILE_SAMPLES: usize = MAX_PACKETS * LANES;
+
+/// Samples of a tile where a pixel has four.
+pub(super) const TILE_SAMPLES_OF_FOUR: usize = 4 * TILE_SAMPLES;
 
 /// Samples that hold an id of a small primitive: a byte each, 1 of those that do.
 #[derive(Debug)]
 pub(super) struct ShownSamples {
-    samples: Box<[u8; TILE_SAMPLES]>,
+    samples: Box<[u8]>,
     /// False if none is noted.
     has_any: bool,
 }
 
-impl Default for ShownSamples {
-    fn default() -> Self {
+impl ShownSamples {
+    fn new(samples: usize) -> Self {
         Self {
-            samples: Box::new([0; TILE_SAMPLES]),
+            samples: vec![0; samples].into(),
             has_any: false,
         }
     }
-}
 
-impl ShownSamples {
-    /// The bytes, to note samples in.
+    /// The bytes of a tile of so many samples, to note samples in.
     #[inline(always)]
-    pub(super) fn begin(&mut self) -> &mut [u8; TILE_SAMPLES] {
+    pub(super) fn begin<const SAMPLES: usize>(&mut self) -> &mut [u8; SAMPLES] {
         self.has_any = true;
-        &mut self.samples
+        let samples = self.samples.first_chunk_mut();
+        samples.expect("there is a byte for each sample of a tile")
     }
 }
 
@@ -95,20 +97,19 @@ impl<const N: usize> Default for VisibilityBuffer<N> {
             groups: Vec::new(),
             has_one_color_draws: false,
             unresolved: Box::new([[0; N]; MAX_PACKETS]),
-            shown: ShownSamples::default(),
+            shown: ShownSamples::new(most_lines(N) * LANES),
             single: SinglePrimitiveBlocks::default(),
             ids: vec![[0; LANES]; most_lines(N)].into(),
         }
     }
 }
 
-/// Lines of sixteen ids that a tile has at most: of one sample it is 64×64 pixels large, of several
-/// 32×32.
+/// Lines of sixteen ids that a tile has at most: of one sample or four it is 64×64 pixels large, of
+/// others 32×32.
 const fn most_lines(samples: usize) -> usize {
-    if samples == 1 {
-        MAX_PACKETS
-    } else {
-        MAX_PACKETS / 4 * samples
+    match samples {
+        1 | 4 => MAX_PACKETS * samples,
+        _ => MAX_PACKETS / 4 * samples,
     }
 }
 
@@ -225,6 +226,21 @@ impl<const N: usize> VisibilityBuffer<N> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::layout::TileGrid;
+
+    #[test]
+    fn there_is_room_for_the_samples_of_a_tile() {
+        let lines = |samples: u32| {
+            let pixels = TileGrid::new(64, 64, samples).tile_pixels();
+            pixels * samples as usize / LANES
+        };
+        assert_eq!([lines(1), lines(4)], [most_lines(1), most_lines(4)]);
+        assert_eq!(TILE_SAMPLES, lines(1) * LANES);
+        assert_eq!(TILE_SAMPLES_OF_FOUR, lines(4) * LANES);
+        for samples in [2, 8, 16] {
+            assert!(lines(samples) <= most_lines(16), "{samples} samples");
+        }
+    }
 
     #[test]
     fn shown_samples_are_taken_once() {
@@ -234,9 +250,10 @@ mod tests {
             }
             let mut buffer = VisibilityBuffer::<4>::default();
             buffer.unresolved[7][1] = 1;
-            let places = [0, 15, 16, (7 * 4 + 1) * LANES + 2, TILE_SAMPLES - 1];
+            let end = TILE_SAMPLES_OF_FOUR;
+            let places = [0, 15, 16, (7 * 4 + 1) * LANES + 2, end - 1];
             for place in places {
-                buffer.shown.begin()[place] = 1;
+                buffer.shown.begin::<TILE_SAMPLES_OF_FOUR>()[place] = 1;
             }
             buffer.take_shown(level);
             let mut expected = [[0; 4]; MAX_PACKETS];
@@ -247,7 +264,7 @@ mod tests {
             assert_eq!(*buffer.unresolved, expected, "{level:?}");
             // None is left.
             buffer.unresolved.fill([0; 4]);
-            buffer.shown.begin();
+            buffer.shown.begin::<TILE_SAMPLES_OF_FOUR>();
             buffer.take_shown(level);
             assert_eq!(*buffer.unresolved, [[0; 4]; MAX_PACKETS], "{level:?}");
         }

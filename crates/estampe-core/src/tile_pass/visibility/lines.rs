@@ -84,7 +84,7 @@ impl<const N: usize> TileScratch<N> {
             debug_assert!(N > 1, "a tile of one sample");
             return;
         };
-        let shown = buffer.shown.begin();
+        let shown = buffer.shown.begin::<TILE_SAMPLES>();
         for ((lane, place), id) in places.iter().enumerate().zip(cross.first_id_of_last()..) {
             let place = *place as usize % TILE_SAMPLES;
             let is_shown = lanes >> lane & 1 == 1;

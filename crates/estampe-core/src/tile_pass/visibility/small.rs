@@ -2,7 +2,7 @@
 //! sample, and the list tested pixel by pixel.
 
 use super::ONLY_WIDE;
-use super::buffer::TILE_SAMPLES;
+use super::buffer::{TILE_SAMPLES, TILE_SAMPLES_OF_FOUR};
 use super::rasterize::Rasterizer;
 use super::writer::VisibilityWriter;
 use crate::bounds::primitives::TrianglePacket;
@@ -113,10 +113,11 @@ impl<const N: usize> VisibilityWriter<'_, N> {
         if !self.tests_less_alone() || self.passed.is_some() {
             return self.pixels_of_any_test(list, front, numbering);
         }
-        if self.has_ids() {
-            self.nearer_pixels(list, numbering);
-        } else {
-            self.nearer_depths(list);
+        match (const { N == 1 }, self.has_ids()) {
+            (true, true) => self.nearer_pixels::<TILE_SAMPLES>(list, numbering),
+            (true, false) => self.nearer_depths::<TILE_SAMPLES>(list),
+            (false, true) => self.nearer_pixels::<TILE_SAMPLES_OF_FOUR>(list, numbering),
+            (false, false) => self.nearer_depths::<TILE_SAMPLES_OF_FOUR>(list),
         }
         list.blocks(s, (256 * N).ilog2())
     }
@@ -125,20 +126,21 @@ impl<const N: usize> VisibilityWriter<'_, N> {
     /// result, which nobody can predict. Most pixels share their packet with the one before: bits
     /// of a packet would wait for each other, where each pixel has a byte.
     #[inline(always)]
-    fn nearer_pixels(&mut self, list: &PixelList, numbering: &mut impl Numbering) {
+    fn nearer_pixels<const SAMPLES: usize>(
+        &mut self,
+        list: &PixelList,
+        numbering: &mut impl Numbering,
+    ) {
         let depth = self.depth.as_flattened_mut().first_chunk_mut();
         let ids = self.ids.as_flattened_mut().first_chunk_mut();
-        let (depth, ids): (
-            Option<&mut [f32; TILE_SAMPLES]>,
-            Option<&mut [u32; TILE_SAMPLES]>,
-        ) = (depth, ids);
+        let (depth, ids): (Option<&mut [f32; SAMPLES]>, Option<&mut [u32; SAMPLES]>) = (depth, ids);
         let (Some(depth), Some(ids)) = (depth, ids) else {
             debug_assert!(self.depth.is_empty(), "a tile of one sample or four");
             return;
         };
-        let shown = self.shown.begin();
+        let shown = self.shown.begin::<SAMPLES>();
         for (pixel, at, new) in list.iter() {
-            let at = at % TILE_SAMPLES;
+            let at = at % SAMPLES;
             let old = depth[at];
             let passes = new < old;
             depth[at] = if passes { new } else { old };
@@ -151,15 +153,15 @@ impl<const N: usize> VisibilityWriter<'_, N> {
 
     /// Stores the depths of the listed pixels that are nearer, of fragments without colours.
     #[inline(always)]
-    fn nearer_depths(&mut self, list: &PixelList) {
+    fn nearer_depths<const SAMPLES: usize>(&mut self, list: &PixelList) {
         let depth = self.depth.as_flattened_mut().first_chunk_mut();
-        let depth: Option<&mut [f32; TILE_SAMPLES]> = depth;
+        let depth: Option<&mut [f32; SAMPLES]> = depth;
         let Some(depth) = depth else {
             debug_assert!(self.depth.is_empty(), "a tile of one sample or four");
             return;
         };
         for (_, at, new) in list.iter() {
-            let stored = &mut depth[at % TILE_SAMPLES];
+            let stored = &mut depth[at % SAMPLES];
             *stored = if new < *stored { new } else { *stored };
         }
     }

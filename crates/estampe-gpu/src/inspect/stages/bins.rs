@@ -21,7 +21,10 @@ pub(super) struct Binning {
 
 /// Side of a tile in pixels.
 pub(super) fn tile_side(samples: u32) -> u32 {
-    if samples == 1 { 64 } else { 32 }
+    match samples {
+        1 | 4 => 64,
+        _ => 32,
+    }
 }
 
 impl Binning {
