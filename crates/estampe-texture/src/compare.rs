@@ -7,9 +7,9 @@
 //! # Many samples at once
 //!
 //! In nearly all packets, all texels are lit or all are in shadow. Then the depth min/max of the
-//! 2×2 blocks of 4×4 texels that [`sample_compare_sum`] can reach decides the packet: that takes
-//! two loads of a pair of bounds per lane, instead of four loads for each sample. The sum is the
-//! same, because results that are all 1 or all 0 keep their value when they are filtered.
+//! window of 8×8 texels that [`sample_compare_sum`] can reach decides the packet: that takes one
+//! load per lane, instead of four for each sample. The sum is the same, because results that are all
+//! 1 or all 0 keep their value when they are filtered.
 //!
 //! If the bounds do not decide, 3×3 samples one texel apart share their texels: 16 texels are
 //! compared instead of 36.
@@ -90,10 +90,10 @@ pub fn compare_packets(
 /// A depth image as lane code reads it.
 struct Map<'a> {
     depths: &'a [u32],
-    bounds: &'a [u32],
+    windows: &'a [u32],
     width: i32,
     height: i32,
-    /// Words in a row of the bounds.
+    /// Words in a row of the windows.
     stride: i32,
 }
 
@@ -104,7 +104,7 @@ impl<'a> Map<'a> {
         let (width, height) = (side(texture.width()), side(texture.height()));
         Self {
             depths: bits_of(texture.depths()),
-            bounds: texture.bounds(),
+            windows: texture.windows(),
             width,
             height,
             stride: (width + 63) / 64 * 16,
@@ -195,15 +195,8 @@ impl<'a> Map<'a> {
         let (x0, x1, y0, y1) = (x0 >> 2, x1 >> 2, y0 >> 2, y1 >> 2);
         // Lanes whose texels span more than two 4×4 blocks across or down.
         let wide = one.lt((x1 - x0).max(y1 - y0));
-        let stride = x0.splat(self.stride);
-        // The right block of a pair may be unneeded; then it can only prevent a decision.
-        let (upper, lower) = (y0 * stride + x0, y1 * stride + x0);
-        let (a, b) = (upper.gather(self.bounds), (upper + one).gather(self.bounds));
-        let (c, d) = (lower.gather(self.bounds), (lower + one).gather(self.bounds));
-        let half = x0.splat(0xFFFF);
-        let least = (a & half).min(b & half).min((c & half).min(d & half));
-        let above = a.shr_unsigned(16).max(b.shr_unsigned(16));
-        let greatest = above.max(c.shr_unsigned(16).max(d.shr_unsigned(16)));
+        let window = (y0 * x0.splat(self.stride) + x0).gather(self.windows);
+        let (least, greatest) = (window & x0.splat(0xFFFF), window.shr_unsigned(16));
         let scaled = reference * ShadowMap::BOUND_SCALE;
         let lit = scaled.le(least.to_real());
         let dark = scaled.gt(greatest.to_real());

@@ -1,7 +1,7 @@
-//! Least and greatest depth of each 4×4 texels of a depth texture.
+//! Least and greatest depth of each 4×4 texels of a depth texture, and of windows of 8×8.
 //!
 //! In: a block of 64×64 depths, all in 0..=1, in storage order.\
-//! Out: sixteen rows of sixteen words in the format of [`ShadowMap::bounds`].\
+//! Out: sixteen rows of sixteen words in the format of [`ShadowMap::windows`].\
 //! Precision: minimum and maximum do not depend on the order of comparisons, so the bits are the
 //! same at every SIMD level.
 
@@ -10,6 +10,7 @@ use crate::morton::{compact, spread};
 use crate::texture::BLOCK;
 use estampe_simd::{
     LANES, Lanes, Level, Select, SimdBase, SimdCvtFloat, SimdCvtTruncate, dispatch, f32x16, i32x16,
+    u32x16,
 };
 
 /// Packets of 4×4 texels along a side of a block.
@@ -74,4 +75,108 @@ fn bounds_of<S: Lanes>(simd: S, packets: &[[f32; LANES]; LANES]) -> i32x16<S> {
     let one = i32x16::splat(simd, 1);
     let high = above.select(high + one, high);
     low | (high << 16)
+}
+
+/// The bounds of texels of one depth.
+pub(crate) fn of_depth(depth: f32) -> u32 {
+    let scaled = depth.clamp(0.0, 1.0) * ShadowMap::BOUND_SCALE;
+    // In 0..=32768.
+    let [low, high]: [i32; 2] = [scaled.floor(), scaled.ceil()].map(crate::Real::to_int);
+    (low | high << 16).cast_unsigned()
+}
+
+/// Joins rows of bounds, of a multiple of sixteen words each, with the words to the right and those
+/// below. At the right edge, and below the last row, there are no more.
+pub(crate) fn windows(level: Level, stride: usize, bounds: &[u32], windows: &mut [u32]) {
+    if stride == 0 {
+        return;
+    }
+    dispatch!(level, s => {
+        for (number, windows) in windows.chunks_exact_mut(stride).enumerate() {
+            let Some(upper) = bounds.get(number * stride..).and_then(|row| row.get(..stride)) else {
+                return;
+            };
+            let lower = bounds.get((number + 1) * stride..).and_then(|row| row.get(..stride));
+            join_rows(s, [upper, lower.unwrap_or(upper)], windows);
+        }
+    });
+}
+
+/// Joins two rows of bounds to one of windows.
+#[inline(always)]
+fn join_rows<S: Lanes>(s: S, rows: [&[u32]; 2], windows: &mut [u32]) {
+    let low_half = u32x16::splat(s, 0xFFFF);
+    let (windows, _) = windows.as_chunks_mut::<LANES>();
+    for (number, to) in windows.iter_mut().enumerate() {
+        let mut least = low_half;
+        // The half below does not matter: it is taken away at the end.
+        let mut greatest = u32x16::splat(s, 0);
+        for row in rows {
+            let (here, right) = pair(s, &row[number * LANES..]);
+            least = least.min(here & low_half).min(right & low_half);
+            greatest = greatest.max(here).max(right);
+        }
+        (least | (greatest & !low_half)).store_array(to);
+    }
+}
+
+/// Sixteen words, and those to their right; the last word of a row is its own neighbour.
+#[inline(always)]
+fn pair<S: Lanes>(s: S, row: &[u32]) -> (u32x16<S>, u32x16<S>) {
+    let mut last = [0; LANES];
+    let here = row.first_chunk().unwrap_or(&last);
+    let here = u32x16::load_array_ref(s, here);
+    if let Some(right) = row.get(1..).and_then(|row| row.first_chunk()) {
+        return (here, u32x16::load_array_ref(s, right));
+    }
+    for (lane, to) in last.iter_mut().enumerate() {
+        *to = row.get(lane + 1).or(row.last()).copied().unwrap_or(0);
+    }
+    (here, u32x16::load_array(s, last))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn bounds_of_one_depth_are_those_of_a_block_of_it() {
+        for depth in [0.0, 0.25, 0.3, 0.999_99, 1.0, f32::MIN_POSITIVE] {
+            for level in Level::all_available() {
+                let bounds = of_block(level, &[depth; BLOCK * BLOCK]);
+                assert_eq!(bounds, [[of_depth(depth); SIDE]; SIDE], "{depth}");
+            }
+        }
+    }
+
+    /// Each window is the union of the bounds that it holds, in images of one row or several.
+    #[test]
+    fn windows_join_four_bounds() {
+        let mut number = 1_u32;
+        let mut random = || {
+            number = number.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            (number >> 16) % 32_769
+        };
+        for (stride, rows) in [(16, 1), (16, 5), (48, 16)] {
+            let bounds: Vec<u32> = (0..stride * rows)
+                .map(|_| {
+                    let (a, b) = (random(), random());
+                    a.min(b) | a.max(b) << 16
+                })
+                .collect();
+            for level in Level::all_available() {
+                let mut found = vec![0; bounds.len()];
+                windows(level, stride, &bounds, &mut found);
+                for (at, found) in found.iter().enumerate() {
+                    let (x, y) = (at % stride, at / stride);
+                    let (right, below) = ((x + 1).min(stride - 1), (y + 1).min(rows - 1));
+                    let all = [(x, y), (right, y), (x, below), (right, below)];
+                    let all = all.map(|(x, y)| bounds[y * stride + x]);
+                    let least = all.map(|word| word & 0xFFFF).into_iter().min().unwrap();
+                    let greatest = all.map(|word| word >> 16).into_iter().max().unwrap();
+                    assert_eq!(*found, least | greatest << 16, "{x} {y}");
+                }
+            }
+        }
+    }
 }

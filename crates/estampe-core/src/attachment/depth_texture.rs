@@ -1,7 +1,8 @@
 //! A depth attachment as a texture: the same memory, and the bounds of its packets beside it.
 //!
 //! Once a texture was taken of an attachment, its next passes find the bounds of each tile while
-//! its depths are in the cache: afterwards, they would come from memory once more.
+//! its depths are in the cache: afterwards, they would come from memory once more. When a texture is
+//! taken, bounds are joined to windows, which reach over the edges of tiles.
 
 use super::texels::DepthStencilTexels;
 use crate::layout::BLOCK;
@@ -12,12 +13,23 @@ use std::sync::Arc;
 /// The bounds of an image's packets.
 #[derive(Debug, Clone, Default)]
 pub(super) struct DepthBounds {
-    /// Shared with depth textures; memory that is used again when these are gone.
-    words: Arc<Vec<u32>>,
+    /// Of each packet.
+    words: Vec<u32>,
+    /// Of the windows that begin at each packet. Shared with depth textures; memory that is used
+    /// again when these are gone.
+    windows: Arc<Vec<u32>>,
     /// True if a depth texture was taken of the image.
     are_wanted: bool,
-    /// True if they are those of the depths that the image holds.
-    are_current: bool,
+    /// What is those of the depths that the image holds.
+    current: Current,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+enum Current {
+    #[default]
+    Nothing,
+    Bounds,
+    BoundsAndWindows,
 }
 
 /// The bounds of one tile's packets, in an image's bounds.
@@ -37,49 +49,90 @@ impl TileBounds<'_> {
             row.copy_from_slice(&of_row);
         }
     }
+
+    /// Sets the bounds of a tile of one depth.
+    pub(crate) fn fill(&mut self, depth: f32) {
+        let bounds = ShadowMap::bounds_of_depth(depth);
+        self.rows.iter_mut().for_each(|row| row.fill(bounds));
+    }
 }
 
-/// A tile whose bounds a worker finds.
+/// A part of an image whose bounds a worker finds.
 #[derive(Debug)]
-pub(crate) struct BoundsJob<'a> {
-    depths: &'a [f32],
-    bounds: TileBounds<'a>,
+pub(crate) enum BoundsJob<'a> {
+    /// The bounds of a tile.
+    Tile {
+        depths: &'a [f32],
+        bounds: TileBounds<'a>,
+    },
+    /// Rows of windows, from the bounds of these rows on.
+    Windows {
+        stride: usize,
+        bounds: &'a [u32],
+        windows: &'a mut [u32],
+    },
 }
 
 impl BoundsJob<'_> {
     /// Finds the bounds.
     pub(crate) fn run(&mut self, level: Level) {
-        self.bounds.find(level, self.depths);
+        match self {
+            Self::Tile { depths, bounds } => bounds.find(level, depths),
+            Self::Windows {
+                stride,
+                bounds,
+                windows,
+            } => ShadowMap::find_windows(level, *stride, bounds, windows),
+        }
     }
 }
 
 impl DepthBounds {
     /// The bounds of each tile of an image of one sample, in the order of tiles, to be written.
     fn tiles(&mut self, [width, height]: [u32; 2]) -> impl Iterator<Item = TileBounds<'_>> {
-        if Arc::get_mut(&mut self.words).is_none() {
-            self.words = Arc::default();
+        self.words.resize(ShadowMap::bounds_len(width, height), 0);
+        let (stride, side) = (ShadowMap::bounds_stride(width), PACKETS);
+        self.words
+            .chunks_exact_mut(stride * side)
+            .flat_map(move |band| {
+                let mut left: Vec<_> = band.chunks_exact_mut(side).map(Some).collect();
+                let columns = stride / side;
+                (0..columns).map(move |column| {
+                    let rows = left[column..].iter_mut().step_by(columns);
+                    TileBounds {
+                        rows: rows.filter_map(Option::take).collect(),
+                    }
+                })
+            })
+    }
+
+    /// The rows of windows of each row of tiles, to be written.
+    fn windows(&mut self, width: u32) -> impl Iterator<Item = BoundsJob<'_>> {
+        if Arc::get_mut(&mut self.windows).is_none() {
+            self.windows = Arc::default();
         }
         // Not shared, as was just seen to.
-        let words = Arc::make_mut(&mut self.words);
-        words.resize(ShadowMap::bounds_len(width, height), 0);
-        let (stride, side) = (ShadowMap::bounds_stride(width), BLOCK as usize / 4);
-        words.chunks_exact_mut(stride * side).flat_map(move |band| {
-            let mut left: Vec<_> = band.chunks_exact_mut(side).map(Some).collect();
-            let columns = stride / side;
-            (0..columns).map(move |column| {
-                let rows = left[column..].iter_mut().step_by(columns);
-                TileBounds {
-                    rows: rows.filter_map(Option::take).collect(),
-                }
-            })
+        let windows = Arc::make_mut(&mut self.windows);
+        windows.resize(self.words.len(), 0);
+        let stride = ShadowMap::bounds_stride(width);
+        let band = stride * PACKETS;
+        let (firsts, words) = ((0..).step_by(band), &self.words[..]);
+        let bands = firsts.zip(windows.chunks_exact_mut(band));
+        bands.map(move |(first, windows)| BoundsJob::Windows {
+            stride,
+            bounds: &words[first..words.len().min(first + band + stride)],
+            windows,
         })
     }
 }
 
+/// The packets along a side of a tile.
+const PACKETS: usize = BLOCK as usize / 4;
+
 impl DepthStencilTexels {
     /// The depths, to be changed.
     pub(crate) fn depths_mut(&mut self) -> &mut Lines<f32> {
-        self.bounds.are_current = false;
+        self.bounds.current = Current::Nothing;
         Arc::make_mut(&mut self.depth)
     }
 
@@ -94,7 +147,11 @@ impl DepthStencilTexels {
         Option<impl Iterator<Item = TileBounds<'_>>>,
     ) {
         let finds = keeps_depths && self.bounds.are_wanted && self.has_texture();
-        self.bounds.are_current = finds;
+        self.bounds.current = if finds {
+            Current::Bounds
+        } else {
+            Current::Nothing
+        };
         let size = [self.size.width, self.size.height];
         let bounds = finds.then(|| self.bounds.tiles(size));
         (Arc::make_mut(&mut self.depth), &mut self.stencil, bounds)
@@ -109,24 +166,29 @@ impl DepthStencilTexels {
     /// `None` without depth or with several samples.
     pub(crate) fn depth_texture(
         &mut self,
-        run_all: impl FnOnce(&mut [BoundsJob<'_>]),
+        mut run_all: impl FnMut(&mut [BoundsJob<'_>]),
     ) -> Option<ShadowMap> {
         if !self.has_texture() {
             return None;
         }
         let (width, height) = (self.size.width, self.size.height);
-        if !self.bounds.are_current {
+        if self.bounds.current == Current::Nothing {
             let tiles = self.depth.chunks_exact((BLOCK * BLOCK) as usize);
             let bounds = self.bounds.tiles([width, height]);
             let jobs = tiles.zip(bounds);
             let mut jobs: Vec<BoundsJob<'_>> = jobs
-                .map(|(depths, bounds)| BoundsJob { depths, bounds })
+                .map(|(depths, bounds)| BoundsJob::Tile { depths, bounds })
                 .collect();
             run_all(&mut jobs);
-            self.bounds.are_current = true;
+            self.bounds.current = Current::Bounds;
+        }
+        if self.bounds.current == Current::Bounds {
+            let mut jobs: Vec<BoundsJob<'_>> = self.bounds.windows(width).collect();
+            run_all(&mut jobs);
+            self.bounds.current = Current::BoundsAndWindows;
         }
         self.bounds.are_wanted = true;
-        let shared = (Arc::clone(&self.depth), Arc::clone(&self.bounds.words));
+        let shared = (Arc::clone(&self.depth), Arc::clone(&self.bounds.windows));
         Some(ShadowMap::from_storage((width, height), shared.0, shared.1))
     }
 }
@@ -137,10 +199,9 @@ mod tests {
     use crate::attachment::ImageSize;
     use estampe_types::TextureFormat;
 
-    /// Tile by tile at any level, the bounds hold the depths of their packets, and as tightly as
-    /// they can.
+    /// At any level, windows hold the depths of their texels, and as tightly as they can.
     #[test]
-    fn bounds_of_tiles_are_those_of_their_depths() {
+    fn windows_are_those_of_their_depths() {
         for (width, height) in [(1, 1), (64, 64), (70, 130), (200, 64)] {
             let size = ImageSize {
                 width,
@@ -156,15 +217,23 @@ mod tests {
             for level in Level::all_available() {
                 let jobs =
                     |jobs: &mut [BoundsJob<'_>]| jobs.iter_mut().for_each(|job| job.run(level));
-                texels.bounds.are_current = false;
+                texels.bounds.current = Current::Nothing;
                 let map = texels.depth_texture(jobs).unwrap();
                 let stride = ShadowMap::bounds_stride(width);
                 for y in 0..height {
                     for x in 0..width {
-                        let word = map.bounds()[(y / 4) as usize * stride + (x / 4) as usize];
                         let scaled = map.texel(x, y) * ShadowMap::BOUND_SCALE;
-                        let [low, high] = [word & 0xFFFF, word >> 16].map(|bound| bound as f32);
-                        assert!(low <= scaled && scaled <= high, "{level:?} {x} {y}");
+                        // All windows that the texel is in.
+                        for (left, top) in [(0, 0), (1, 0), (0, 1), (1, 1)] {
+                            let (Some(left), Some(top)) =
+                                ((x / 4).checked_sub(left), (y / 4).checked_sub(top))
+                            else {
+                                continue;
+                            };
+                            let word = map.windows()[top as usize * stride + left as usize];
+                            let [low, high] = [word & 0xFFFF, word >> 16].map(|bound| bound as f32);
+                            assert!(low <= scaled && scaled <= high, "{level:?} {x} {y}");
+                        }
                     }
                 }
             }
@@ -182,24 +251,35 @@ mod tests {
         assert!(texels.tiles_mut(true).2.is_none(), "no texture was taken");
         let run = |jobs: &mut [BoundsJob<'_>]| {
             jobs.iter_mut().for_each(|job| job.run(Level::best()));
-            assert_eq!(jobs.len(), 6);
+            // Six tiles; two rows of them.
+            assert!(matches!(jobs, [BoundsJob::Tile { .. }, ..]) == (jobs.len() == 6));
+            assert!(matches!(jobs.len(), 6 | 2));
         };
         assert!(texels.depth_texture(run).is_some());
         let (depths, _, bounds) = texels.tiles_mut(true);
         depths.fill(0.5);
         let tiles = depths.chunks_exact(64 * 64).zip(bounds.unwrap());
-        tiles.for_each(|(depths, mut bounds)| bounds.find(Level::best(), depths));
-        let map = texels.depth_texture(|_| panic!("they are found")).unwrap();
+        for (number, (depths, mut bounds)) in tiles.enumerate() {
+            match number % 2 {
+                0 => bounds.find(Level::best(), depths),
+                _ => bounds.fill(0.5),
+            }
+        }
+        let map = texels.depth_texture(|jobs| {
+            assert!(
+                matches!(jobs, [BoundsJob::Windows { .. }, _]),
+                "the bounds are found"
+            );
+            jobs.iter_mut().for_each(|job| job.run(Level::best()));
+        });
         let half = 0x4000_4000;
-        assert!(
-            map.bounds()[..map.bounds().len() - 1]
-                .iter()
-                .all(|word| *word == half)
-        );
+        assert!(map.unwrap().windows().iter().all(|word| *word == half));
+        let map = texels.depth_texture(|_| panic!("all is found"));
+        assert!(map.is_some());
         assert!(
             texels.tiles_mut(false).2.is_none(),
             "depths that are not kept"
         );
-        assert!(!texels.bounds.are_current);
+        assert!(texels.bounds.current == Current::Nothing);
     }
 }

@@ -177,7 +177,8 @@ fn draw_into<const N: usize>(
     job: &mut TileJob<'_>,
     scratch: &mut TileScratch<N>,
 ) {
-    if pass.is_empty(job.tile) {
+    let is_empty = pass.is_empty(job.tile);
+    if is_empty {
         pass.clear.tile::<N>(pass, job);
         scratch.statistics.tiles_only_cleared += 1;
     } else {
@@ -189,7 +190,10 @@ fn draw_into<const N: usize>(
         scratch.statistics.tiles_to_rows += 1;
     }
     if let Some(bounds) = &mut job.depth_bounds {
-        bounds.find(pass.level, job.depth.as_flattened());
+        match pass.clear.depth.filter(|_| is_empty) {
+            Some(depth) => bounds.fill(depth),
+            None => bounds.find(pass.level, job.depth.as_flattened()),
+        }
         scratch.statistics.tiles_bounded += 1;
     }
 }

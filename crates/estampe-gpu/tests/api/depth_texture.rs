@@ -160,14 +160,14 @@ fn check_map(device: &Device, depth: &Texture) {
     let stride = ShadowMap::bounds_stride(SIZE[0]);
     for (index, depth) in depths.iter().enumerate() {
         let (x, y) = (index % SIZE[0] as usize, index / SIZE[0] as usize);
-        let word = map.bounds()[y / 4 * stride + x / 4];
+        let word = map.windows()[y / 4 * stride + x / 4];
         let scaled = depth * ShadowMap::BOUND_SCALE;
         assert!((word & 0xFFFF) as f32 <= scaled && (word >> 16) as f32 >= scaled);
     }
-    // The same image from rows; the bounds differ only where packets extend beyond the image.
+    // The same image from rows; the windows differ only where they extend beyond the image.
     let brought = ShadowMap::from_rows(SIZE[0], SIZE[1], &depths);
     assert!(rows(&brought) == depths);
-    assert_eq!(brought.bounds()[..32], map.bounds()[..32]);
+    assert_eq!(brought.windows()[..32], map.windows()[..32]);
 }
 
 /// A second binding of the same depths shares their memory with the first; drawing does not.

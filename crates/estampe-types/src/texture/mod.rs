@@ -68,18 +68,18 @@ pub(crate) const BLOCK: usize = 64;
 ///
 /// It is stored as attachments are, so that an attachment is sampled in place: 64×64 storage blocks
 /// in row order, and Morton order inside a block (bit i of x is bit 2i, bit i of y is bit 2i + 1).
-/// The depth min/max of each 4×4 texels is stored row by row; it decides most samples of a shadow
-/// map.
+/// The depth min/max of windows of 8×8 texels is stored row by row; it decides most samples of a
+/// shadow map.
 #[derive(Debug, Clone, Default)]
 pub struct ShadowMap {
     width: u32,
     height: u32,
     depths: Arc<Lines<f32>>,
-    bounds: Arc<Vec<u32>>,
+    windows: Arc<Vec<u32>>,
 }
 
 impl ShadowMap {
-    /// Scale by which depths are multiplied before they are stored in [`ShadowMap::bounds`].
+    /// Scale by which depths are multiplied before they are stored in [`ShadowMap::windows`].
     pub const BOUND_SCALE: f32 = 32_768.0;
 
     /// The greatest width and height, in texels.
@@ -114,20 +114,22 @@ impl ShadowMap {
                 row[..BLOCK / 4].copy_from_slice(&of_row);
             }
         }
+        let mut windows = vec![0; bounds.len()];
+        Self::find_windows(Level::best(), stride, &bounds, &mut windows);
         Self::from_storage(
             (width, height),
             Arc::new(Lines::from(depths)),
-            Arc::new(bounds),
+            Arc::new(windows),
         )
     }
 
-    /// A texture from depths in storage order, all in 0..=1, and their bounds. The texture is empty
+    /// A texture from depths in storage order, all in 0..=1, and their windows. The texture is empty
     /// if the lengths do not fit the size.
     #[must_use]
     pub fn from_storage(
         (width, height): (u32, u32),
         depths: Arc<Lines<f32>>,
-        bounds: Arc<Vec<u32>>,
+        windows: Arc<Vec<u32>>,
     ) -> Self {
         let stored =
             Self::bounds_stride(width) * 16 * (height as usize).next_multiple_of(BLOCK) / 4;
@@ -136,7 +138,7 @@ impl ShadowMap {
             || height == 0
             || width.max(height) > Self::MAX_SIDE
             || depths.len() != stored
-            || bounds.len() != len
+            || windows.len() != len
         {
             return Self::default();
         }
@@ -144,7 +146,7 @@ impl ShadowMap {
             width,
             height,
             depths,
-            bounds,
+            windows,
         }
     }
 
@@ -177,31 +179,46 @@ impl ShadowMap {
         &self.depths
     }
 
-    /// Depth min/max of each 4×4 texels, row by row, [`ShadowMap::bounds_stride`] words per row,
-    /// in units of 1/[`ShadowMap::BOUND_SCALE`]: the least depth rounded down in the low half of
-    /// a word, the greatest rounded up in the high half. One more word follows the last, so that
-    /// pairs can be read.
+    /// Depth min/max of the 8×8 texels from each 4×4 texels on, as far as they are in the texture's
+    /// storage blocks: row by row, [`ShadowMap::bounds_stride`] words per row, in units of
+    /// 1/[`ShadowMap::BOUND_SCALE`]. The least depth rounded down is in the low half of a word, the
+    /// greatest rounded up in the high half.
+    ///
+    /// Samples beside each other most often read texels of one such window.
     #[must_use]
-    pub fn bounds(&self) -> &[u32] {
-        &self.bounds
+    pub fn windows(&self) -> &[u32] {
+        &self.windows
     }
 
-    /// Words per row of the bounds of a texture, given its width in texels.
+    /// Words per row of the bounds of a texture, and of its windows, given its width in texels.
     #[must_use]
     pub fn bounds_stride(width: u32) -> usize {
         (width as usize).next_multiple_of(BLOCK) / 4
     }
 
-    /// Words of the bounds of a texture, given its size in texels.
+    /// Words of the bounds of a texture, and of its windows, given its size in texels.
     #[must_use]
     pub fn bounds_len(width: u32, height: u32) -> usize {
-        Self::bounds_stride(width) * ((height as usize).next_multiple_of(BLOCK) / 4) + 1
+        Self::bounds_stride(width) * ((height as usize).next_multiple_of(BLOCK) / 4)
     }
 
-    /// Computes the bounds of one storage block: sixteen rows of words.
+    /// Computes the bounds of one storage block, the min/max of each 4×4 depths: sixteen rows of
+    /// words.
     #[must_use]
     pub fn bounds_of_block(level: Level, depths: &[f32]) -> [[u32; BLOCK / 4]; BLOCK / 4] {
         depth_minmax::of_block(level, depths)
+    }
+
+    /// The bounds of 4×4 texels of one depth in 0..=1.
+    #[must_use]
+    pub fn bounds_of_depth(depth: f32) -> u32 {
+        depth_minmax::of_depth(depth)
+    }
+
+    /// Joins the bounds of 4×4 texels to those of [`ShadowMap::windows`], so many rows of `stride`
+    /// words as `windows` has; `bounds` may have one more.
+    pub fn find_windows(level: Level, stride: usize, bounds: &[u32], windows: &mut [u32]) {
+        depth_minmax::windows(level, stride, bounds, windows);
     }
 }
 
