@@ -45,8 +45,8 @@ mod table;
 pub use block::Columns;
 pub use fearless_simd::{
     Bytes, ExtractToken, Select, Simd, SimdBase, SimdCvtFloat, SimdCvtTruncate, SimdFloat, SimdInt,
-    SimdInto, SimdMask, f32x4, f32x16, f64x2, i32x16, mask8x16, mask32x16, u8x16, u16x8, u32x4,
-    u32x16,
+    SimdInto, SimdMask, SimdSplit, f32x4, f32x16, f64x2, i32x16, mask8x16, mask32x16, u8x16, u8x32,
+    u16x8, u32x4, u32x8, u32x16,
 };
 #[cfg(target_arch = "x86_64")]
 #[doc(hidden)]

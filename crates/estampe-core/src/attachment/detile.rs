@@ -12,7 +12,8 @@
 //! With pairs as elements of 64 bits, a register of 128 bits holds two pairs in order, and a row is
 //! the zip of two registers: four loads, four zips and four stores move a packet. Rows that are
 //! built from single lanes in memory and then loaded as a whole take three times as long, because
-//! each load waits for the smaller stores before it.
+//! each load waits for the smaller stores before it. Where one register holds the sixteen lanes,
+//! texels of two words are brought into the order of rows by four permutations of whole registers.
 //!
 //! A job is sixteen rows: sixteen packets of a 16×16 square lie one after the other, so reading and
 //! writing go through whole cache lines.
@@ -21,7 +22,8 @@ use super::DepthStencilTexels;
 use super::resolve::{MAX_PACKET, Mean};
 use crate::layout::TileGrid;
 use estampe_simd::{
-    Bytes, LANES, Lanes, Level, SimdBase, dispatch, f64x2, outline, u8x16, u16x8, u32x4,
+    Bytes, LANES, Lanes, Level, SimdBase, SimdSplit, dispatch, f64x2, outline, u8x16, u8x32, u16x8,
+    u32x4, u32x8, u32x16,
 };
 
 /// Columns, and rows, that are written together.
@@ -216,6 +218,9 @@ pub(super) fn write_rows<S: Lanes, const WORDS: usize, const BYTES: usize>(
     packets: [&[u32]; 4],
     to: [&mut [u8]; PACKET_SIDE],
 ) {
+    if const { S::IN_ONE_REGISTER && WORDS == 2 && cfg!(target_endian = "little") } {
+        return write_rows_of_pairs(s, packets, to);
+    }
     outline!(s, {
         // Words that are not stored as a whole wait for those of the other packets.
         let mut narrow = [[u32x4::splat(s, 0); 4]; PACKET_SIDE];
@@ -253,6 +258,37 @@ pub(super) fn write_rows<S: Lanes, const WORDS: usize, const BYTES: usize>(
             }
         }
     })
+}
+
+/// [`write_rows`] of texels of two words, in whole registers.
+#[inline(always)]
+fn write_rows_of_pairs<S: Lanes>(s: S, packets: [&[u32]; 4], to: [&mut [u8]; PACKET_SIDE]) {
+    /// The lanes of a packet row by row.
+    const ROWS: [u32; LANES] = [0, 1, 4, 5, 2, 3, 6, 7, 8, 9, 12, 13, 10, 11, 14, 15];
+    /// The bytes of a packet's row.
+    const BYTES: usize = PACKET_SIDE * 8;
+    let order = u32x16::load_array(s, ROWS);
+    let [a, b, c, d] = to;
+    let mut packet = 0;
+    while packet < 4 {
+        let words = packets[packet];
+        let first = s.permute(u32x16::from_slice(s, &words[..LANES]), order);
+        let second = s.permute(u32x16::from_slice(s, &words[LANES..][..LANES]), order);
+        let (upper, lower) = (first.zip_low(second), first.zip_high(second));
+        let ((row_a, row_b), (row_c, row_d)) = (upper.split(), lower.split());
+        let at = packet * BYTES;
+        store_row(row_a, &mut a[at..][..BYTES]);
+        store_row(row_b, &mut b[at..][..BYTES]);
+        store_row(row_c, &mut c[at..][..BYTES]);
+        store_row(row_d, &mut d[at..][..BYTES]);
+        packet += 1;
+    }
+}
+
+#[inline(always)]
+fn store_row<S: Lanes>(row: u32x8<S>, to: &mut [u8]) {
+    let bytes: u8x32<S> = row.bitcast();
+    bytes.store_slice(to);
 }
 
 /// The four rows of one word of a packet's texels.
