@@ -4,7 +4,7 @@ use estampe_ir::Type;
 use estampe_ir::interpreter::{InputData, OutputData};
 
 /// Where the packets of an input's or output's data are in a run.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Track {
     /// The type of the elements; `None` of data that are not in memory.
     kind: Option<Type>,

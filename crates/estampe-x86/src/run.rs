@@ -24,6 +24,27 @@ pub struct Scratch {
     workgroup: Vec<AtomicU32>,
     /// Where the data of the run are.
     tracks: Vec<Track>,
+    /// The pointers of the last run that began with several passes.
+    begin: Begin,
+}
+
+/// The pointers with which a run began. The next one most often has its data in the same memory,
+/// and begins with the same pointers.
+#[derive(Debug, Default)]
+struct Begin {
+    /// The code of the run; none has the number 0.
+    code: u64,
+    packets: usize,
+    tracks: Vec<Track>,
+    pointers: Vec<Line>,
+}
+
+impl Begin {
+    /// True if a run of so many packets begins so, and its steps are still in the frame.
+    #[inline]
+    fn is_of(&self, code: &Code, packets: usize, tracks: &[Track]) -> bool {
+        (self.code, self.packets) == (code.id, packets) && self.tracks == tracks
+    }
 }
 
 /// Bytes of a line.
@@ -84,6 +105,7 @@ impl Code {
             lines,
             workgroup,
             tracks,
+            begin,
             ..
         } = scratch;
         find_data(run, tracks);
@@ -105,7 +127,7 @@ impl Code {
         let stopped = if self.workgroup_words.is_some() {
             self.run_workgroup(run, (tracks, lines), &context)
         } else {
-            self.run_packets(run, (tracks, lines), &context)
+            self.run_packets(run, (tracks, lines), begin, &context)
         };
         if let Some(panic) = context.panic.take() {
             std::panic::resume_unwind(panic);
@@ -134,6 +156,7 @@ impl Code {
         &self,
         run: &Run<'_>,
         (tracks, lines): (&[Track], &mut [Line]),
+        begin: &mut Begin,
         context: &Context<'_>,
     ) -> Result<(), Stopped> {
         let mut packet = 0;
@@ -144,12 +167,32 @@ impl Code {
                 Some(pair) if left > 1 => (pair, 2),
                 _ => (self.packet, 1),
             };
-            // Where some slice is too short, the places of each pass are looked for.
-            let (data, packets) = ((run, tracks), (packet, of_pass));
-            let is_led = self.set_packets(data, lines, packets, self.frame.packet_lines());
-            let passes = if is_led { left / of_pass } else { 1 };
-            if passes > 1 && of_pass > 1 {
-                self.set_steps(lines, of_pass);
+            let mut passes = left / of_pass;
+            let pointers = (self.frame.pointers / LINE) as usize;
+            let all = pointers..pointers + of_pass * self.frame.packet_lines();
+            if packet == 0 && begin.is_of(self, run.packets, tracks) {
+                lines[all].copy_from_slice(&begin.pointers);
+            } else {
+                // Where some slice is too short, the places of each pass are looked for.
+                let (data, packets) = ((run, tracks), (packet, of_pass));
+                let is_led = self.set_packets(data, lines, packets, self.frame.packet_lines());
+                begin.code = 0;
+                if !is_led {
+                    passes = 1;
+                } else if passes > 1 {
+                    if of_pass > 1 {
+                        self.set_steps(lines, of_pass);
+                    }
+                    // Steps of packets that are left over would replace those of the first pass.
+                    if packet == 0 && passes * of_pass == left && self.are_in_memory(run, tracks) {
+                        begin.code = self.id;
+                        begin.packets = run.packets;
+                        begin.tracks.clear();
+                        begin.tracks.extend_from_slice(tracks);
+                        begin.pointers.clear();
+                        begin.pointers.extend_from_slice(&lines[all]);
+                    }
+                }
             }
             set_head(lines, frame::LEFT, passes as u64);
             if enter(&self.executable, function, lines, context) != 0 {
@@ -158,6 +201,15 @@ impl Code {
             packet += passes * of_pass;
         }
         Ok(())
+    }
+
+    /// True if all inputs of a run are in memory, so that none is made in the frame.
+    fn are_in_memory(&self, run: &Run<'_>, tracks: &[Track]) -> bool {
+        (0..).zip(&self.input_types).all(|(number, &kind)| {
+            let part = Part::of(run.input_parts, number);
+            let track = tracks[..run.inputs.len()].get(part.data as usize);
+            track.is_some_and(|track| track.whole_part(kind, part.first, 0).is_some())
+        })
     }
 
     /// Makes room for a frame with so many states, and for the memory of a work-group, which is
@@ -171,6 +223,7 @@ impl Code {
         }
         if scratch.code != self.id {
             scratch.code = self.id;
+            scratch.begin.code = 0;
             scratch.lines[..lines].fill(Line::default());
             scratch.padded.clear();
             scratch.padded.resize(self.fixed_words.len(), Vec::new());
