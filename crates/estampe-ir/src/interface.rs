@@ -70,6 +70,13 @@ pub enum Input {
     NumWorkgroups(u32),
     /// A word of the immediates (push constants), by its number. Uniform.
     PushConstant(u32),
+    /// The width (axis 0) or height (1) of the finest level of a texture. Uniform.
+    TextureSide {
+        /// The position of the texture in the interface.
+        texture: u32,
+        /// The axis.
+        axis: u32,
+    },
 }
 
 impl Input {
@@ -91,6 +98,7 @@ impl Input {
                 | Self::WorkgroupId(_)
                 | Self::NumWorkgroups(_)
                 | Self::PushConstant(_)
+                | Self::TextureSide { .. }
         )
     }
 }

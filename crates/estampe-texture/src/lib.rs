@@ -109,7 +109,7 @@ pub use storage::{
     create_storage_texture, is_storable, storage_bytes, storage_load, storage_store,
     storage_texture_to_texture,
 };
-pub use unorm8::store_unorm8;
+pub use unorm8::{store_unorm8, stored_unorm8_words};
 pub use upload::LevelData;
 pub use view::{
     Coordinates, Lod, PacketLod, PacketPlace, PacketRequest, SampledTexture, TapShifts, TexelView,

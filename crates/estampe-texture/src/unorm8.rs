@@ -7,6 +7,7 @@ use estampe_simd::{
     Bytes, LANES, Lanes, Select, SimdBase, SimdCvtFloat, f32x16, i32x16, mask32x16, u32x16,
 };
 use estampe_types::{StorageTexture, TextureDimension, TextureFormat};
+use std::sync::atomic::AtomicU32;
 
 /// The numbers of the lanes.
 const NUMBERS: [u32; LANES] = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15];
@@ -20,6 +21,15 @@ impl TexelView {
     #[must_use]
     pub fn is_unorm8(&self) -> bool {
         self.is_unorm8
+    }
+
+    /// The texels of the finest level row by row, one word each, and its sides; `None` if
+    /// [`load_unorm8`](Self::load_unorm8) loads none.
+    #[must_use]
+    pub fn unorm8_words(&self) -> Option<(&[u32], [u32; 2])> {
+        let plane = self.planes.first().filter(|_| self.is_unorm8)?;
+        let [width, height, _] = plane.sides.map(i32::cast_unsigned);
+        Some((self.slice_words(plane)?, [width, height]))
     }
 
     /// The texels (x, y) of the finest level, zeros outside; `None` if the view is of another kind.
@@ -63,6 +73,23 @@ fn code<S: Lanes>(s: S, number: f32x16<S>, bit: u32) -> u32x16<S> {
     code << bit
 }
 
+/// True if texels are four unorm bytes, in two dimensions.
+fn is_unorm8(texture: &StorageTexture) -> bool {
+    let is_rgba8 = matches!(
+        texture.format(),
+        TextureFormat::Rgba8Unorm | TextureFormat::Bgra8Unorm
+    );
+    is_rgba8 && texture.shape().dimension == TextureDimension::D2
+}
+
+/// The texels row by row, one word each, and the sides; `None` if [`store_unorm8`] stores none, or
+/// there are several layers.
+#[must_use]
+pub fn stored_unorm8_words(texture: &StorageTexture) -> Option<(&[AtomicU32], [u32; 2])> {
+    let is_packed = is_unorm8(texture) && texture.shape().depth_or_layers == 1;
+    is_packed.then(|| (texture.words(), [texture.width(), texture.height()]))
+}
+
 /// Stores the texels (x, y) for the lanes of the mask, those inside; false if the texture is of
 /// another kind, and nothing is stored.
 #[inline(always)]
@@ -72,11 +99,7 @@ pub fn store_unorm8<S: Lanes>(
     (at, mask): ([i32x16<S>; 2], u16),
     [r, g, b, a]: [f32x16<S>; 4],
 ) -> bool {
-    let is_rgba8 = matches!(
-        texture.format(),
-        TextureFormat::Rgba8Unorm | TextureFormat::Bgra8Unorm
-    );
-    if !is_rgba8 || texture.shape().dimension != TextureDimension::D2 {
+    if !is_unorm8(texture) {
         return false;
     }
     let sides = [texture.width(), texture.height()].map(u32::cast_signed);

@@ -42,6 +42,7 @@ pub(super) fn of_input(input: Input) -> String {
         Input::WorkgroupId(at) => called("workgroup_id", &[at]),
         Input::NumWorkgroups(at) => called("num_workgroups", &[at]),
         Input::PushConstant(at) => called("push_constant", &[at]),
+        Input::TextureSide { texture, axis } => called("texture_side", &[texture, axis]),
     }
 }
 
@@ -73,6 +74,7 @@ pub(super) fn input(name: &str, numbers: &[u32]) -> Option<Input> {
         ("workgroup_id", &[at]) => Input::WorkgroupId(at),
         ("num_workgroups", &[at]) => Input::NumWorkgroups(at),
         ("push_constant", &[at]) => Input::PushConstant(at),
+        ("texture_side", &[texture, axis]) => Input::TextureSide { texture, axis },
         _ => return None,
     })
 }

@@ -1,6 +1,8 @@
 //! A compute shader as text.
 
 use super::batch::immediate;
+use super::machine::has_machine_code;
+use super::packed::{PackedBindings, PackedStage};
 use super::stage::Stage;
 use super::{LinkError, StageSource, layouts};
 use crate::order::Accesses;
@@ -26,6 +28,8 @@ pub struct TextCompute {
     immediate_size: u32,
     accesses: Accesses,
     stage: Stage,
+    /// For textures whose texels are packed.
+    packed: Option<PackedStage>,
     /// x, y and z of each invocation in its work-group, in packets.
     local_ids: [Vec<Packet<u32>>; 3],
     /// The number of each invocation in its work-group.
@@ -82,6 +86,7 @@ impl TextCompute {
             layouts: layouts::of_stages(std::iter::once(source))?,
             immediate_size: source.immediate_size,
             stage: Stage::new(tree, budget),
+            packed: PackedStage::new(tree, budget),
         })
     }
 
@@ -89,10 +94,35 @@ impl TextCompute {
     #[must_use]
     pub fn interpreted(mut self) -> Self {
         self.stage.interpret();
+        self.packed = None;
         self
     }
 
-    fn input(&self, input: Input, [id, count]: [[u32; 3]; 2], immediates: &[u32]) -> InputData<'_> {
+    /// True if machine code accesses the texels of textures with these bindings as words of memory,
+    /// without a call for each.
+    #[must_use]
+    pub fn accesses_words(&self, level: Level, bindings: &Bindings) -> bool {
+        self.packed(level, bindings).is_some()
+    }
+
+    /// The stage for packed textures, and what it binds, if all are.
+    fn packed<'a>(
+        &'a self,
+        level: Level,
+        bindings: &'a Bindings,
+    ) -> Option<(&'a Stage, PackedBindings<'a>)> {
+        // The interpreter does an access for all packets at once.
+        let packed = self.packed.as_ref().filter(|_| has_machine_code(level))?;
+        let textures = self.stage.textures(bindings);
+        Some((packed.stage(), packed.bind(bindings, &textures)?))
+    }
+
+    fn input(
+        &self,
+        input: Input,
+        [id, count]: [[u32; 3]; 2],
+        (immediates, packed): (&[u32], Option<&PackedBindings<'_>>),
+    ) -> InputData<'_> {
         let part = |axes: [u32; 3], axis: u32| axes.get(axis as usize).copied().unwrap_or(0);
         match input {
             Input::LocalInvocationId(axis) => {
@@ -104,6 +134,9 @@ impl TextCompute {
             Input::NumWorkgroups(axis) => InputData::Uniform(part(count, axis)),
             Input::Cover => InputData::Mask(&self.cover),
             Input::PushConstant(at) => immediate(immediates, at),
+            Input::TextureSide { texture, axis } => {
+                InputData::Uniform(packed.map_or(0, |packed| packed.side(texture, axis)))
+            }
             _ => InputData::Uniform(0),
         }
     }
@@ -132,17 +165,23 @@ impl ComputeProgram for TextCompute {
         bindings: &Bindings,
         work: &Workgroups,
     ) -> Result<(), ComputeStopped> {
-        let stage = &self.stage;
+        let packed = self.packed(level, bindings);
+        let (stage, packed) = match &packed {
+            Some((stage, packed)) => (*stage, Some(packed)),
+            None => (&self.stage, None),
+        };
         let (buffers, textures) = (stage.buffers(bindings), stage.textures(bindings));
+        let buffers = packed.map_or(buffers.all(), PackedBindings::buffers);
         let mut inputs = Vec::new();
         for id in work.ids() {
             let of_group = stage.interface().inputs.iter();
             inputs.clear();
             let immediates = &bindings.immediates[..];
-            inputs.extend(of_group.map(|input| self.input(*input, [id, work.count], immediates)));
+            let of_dispatch = (immediates, packed);
+            inputs.extend(of_group.map(|input| self.input(*input, [id, work.count], of_dispatch)));
             let packets = self.cover.len();
             stage
-                .run(level, (&textures, buffers.all()), packets, (&inputs, &[]))
+                .run(level, (&textures, buffers), packets, (&inputs, &[]))
                 .map_err(|stopped| match stopped {
                     Stopped::Budget => ComputeStopped::Budget,
                     Stopped::Memory => ComputeStopped::OutOfMemory,

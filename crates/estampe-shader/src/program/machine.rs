@@ -12,6 +12,11 @@ use std::sync::atomic::{AtomicU64, Ordering};
 /// code takes to make: that of some thousand packets.
 const OFTEN: u64 = 4096;
 
+/// True if there is machine code for a level.
+pub(super) fn has_machine_code(level: Level) -> bool {
+    Isa::of(level).is_some()
+}
+
 /// The code of a stage for each instruction set.
 #[derive(Debug, Default)]
 pub(super) struct MachineCode {

@@ -13,6 +13,7 @@ mod layouts;
 mod link;
 mod machine;
 mod nondependent;
+mod packed;
 mod pixel_loads;
 mod read_place;
 mod samples;

@@ -29,6 +29,8 @@ fn check<S: Lanes>(s: S, random: &mut fastrand::Rng, inside: &mut u32) {
         let none = MipGeneration::None;
         let texture = create_texture(width, height, format, &bytes, none, &limits).unwrap();
         let view = TexelView::of(texture).unwrap();
+        let (words, sides) = view.unorm8_words().unwrap();
+        assert_eq!((words, sides), (&view.texture().texels[..], SIDES));
         let stored = [(); 2].map(|()| create_storage_texture(&descriptor, None, &limits).unwrap());
         let zero = <i32x16<S> as SimdBase<S>>::splat(s, 0);
         for _ in 0..20 {

@@ -128,6 +128,13 @@ impl StorageTexture {
         Some(Arc::get_mut(&mut self.words)?.as_mut_slice())
     }
 
+    /// All words, in the order of [`index`](Self::index).
+    #[inline]
+    #[must_use]
+    pub fn words(&self) -> &[AtomicU32] {
+        &self.words
+    }
+
     /// Number of words.
     #[must_use]
     pub fn len(&self) -> usize {

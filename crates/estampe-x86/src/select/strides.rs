@@ -4,8 +4,9 @@
 //! than in the lane before, modulo 2³². What is the same in all lanes has the stride 0. Loads at
 //! places with a small stride read whole vectors, where gathers would read word after word.
 //!
-//! A value that is confined by a minimum has a stride *perhaps*: code finds out. Indices of arrays
-//! are such values.
+//! A value that is confined by a minimum or maximum has a stride *perhaps*: code finds out. Indices
+//! of arrays and coordinates of texels are such values. So are those of which another value takes
+//! the place in some lanes, as where a texel is outside.
 //!
 //! Everything may have a stride at first; what has none, or two, spreads along edges.
 
@@ -112,20 +113,14 @@ impl Strides {
         match op {
             Op::Input(at) => of_input(interface, *at),
             Op::Binary(kind, pair) => self.binary(plan, *kind, *pair),
+            Op::Select { yes, no, .. } => self.confined([*yes, *no]),
             _ => Known::None,
         }
     }
 
     fn binary(&self, plan: &Plan, kind: Binary, [a, b]: [Value; 2]) -> Known {
         let [of_a, of_b] = [a, b].map(|value| self.0[value.index()]);
-        let both = |combine: fn(u32, u32) -> u32| match (of_a, of_b) {
-            (Known::None, _) | (_, Known::None) => Known::None,
-            (Known::Stride(a), Known::Stride(b)) => Known::Stride(Stride {
-                words: combine(a.words, b.words),
-                is_certain: a.is_certain && b.is_certain,
-            }),
-            _ => Known::Any,
-        };
+        let both = |combine| both([of_a, of_b], combine);
         let times = |of: Known, factor: Option<u32>| match (of, factor) {
             (Known::Stride(stride), Some(factor)) => Known::Stride(Stride {
                 words: stride.words.wrapping_mul(factor),
@@ -143,16 +138,33 @@ impl Strides {
                 let bits = plan.constant(b).filter(|bits| *bits < u32::BITS);
                 times(of_a, bits.map(|bits| 1 << bits))
             }
-            // An index is confined to its array: mostly it is less.
-            Binary::UMin => match both(|a, b| if b == 0 { a } else { b }) {
-                Known::Stride(stride) => Known::Stride(Stride {
-                    is_certain: false,
-                    ..stride
-                }),
-                known => known,
-            },
+            Binary::UMin | Binary::SMin | Binary::SMax => self.confined([a, b]),
             _ => Known::None,
         }
+    }
+
+    /// One of two values in each lane: mostly it is the one that grows.
+    fn confined(&self, pair: [Value; 2]) -> Known {
+        let of = pair.map(|value| self.0[value.index()]);
+        match both(of, |a, b| if b == 0 { a } else { b }) {
+            Known::Stride(stride) => Known::Stride(Stride {
+                is_certain: false,
+                ..stride
+            }),
+            known => known,
+        }
+    }
+}
+
+/// What is known of a value that has a stride if two have.
+fn both(of: [Known; 2], combine: fn(u32, u32) -> u32) -> Known {
+    match of {
+        [Known::None, _] | [_, Known::None] => Known::None,
+        [Known::Stride(a), Known::Stride(b)] => Known::Stride(Stride {
+            words: combine(a.words, b.words),
+            is_certain: a.is_certain && b.is_certain,
+        }),
+        _ => Known::Any,
     }
 }
 

@@ -13,12 +13,14 @@
 //! 5. [`dead_code`]: operations, results and parameters that nothing uses.
 //! 6. [`unused_inputs`]: inputs that nothing reads.
 //!
-//! [`contract`], which does change results, is for those who ask for it.
+//! [`contract`], which does change results, is for those who ask for it; [`access_packed`] for those
+//! who bind textures of one kind.
 
 mod contract;
 mod dead;
 pub(crate) mod fold;
 mod invariant;
+mod packed;
 mod redundant;
 mod straight;
 mod unroll;
@@ -27,6 +29,7 @@ mod unused_inputs;
 pub use contract::contract;
 pub use dead::dead_code;
 pub use invariant::loop_invariants;
+pub use packed::{PackedTexture, access_packed, packed_textures};
 pub use redundant::redundant_parameters;
 pub use straight::straight_blocks;
 pub use unroll::unroll_loops;
