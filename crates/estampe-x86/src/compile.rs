@@ -8,6 +8,7 @@ use crate::machine::passes::Passes;
 use crate::machine::{Function, allocate, emit};
 use crate::select::{self, Selected, calls::Served};
 use crate::{CompileError, Isa, Tier, listing};
+use estampe_ir::interface::{Input, Interface};
 use estampe_ir::lanes::{self, BasicBlock, Kernel};
 use estampe_ir::{Op, Type};
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -28,6 +29,8 @@ pub struct Code {
     pub(crate) frame: Frame,
     pub(crate) served: Vec<Served>,
     pub(crate) table_inputs: Vec<(u32, u32)>,
+    /// The inputs that are parts of the id of the work-group, and the axis of each.
+    pub(crate) workgroup_ids: Vec<(u32, u32)>,
     pub(crate) fixed_words: Vec<u32>,
     pub(crate) input_types: Vec<Type>,
     pub(crate) output_types: Vec<Type>,
@@ -164,6 +167,7 @@ impl Code {
             isa,
             served,
             table_inputs,
+            workgroup_ids: workgroup_ids(interface),
             fixed_words,
             input_types: interface.inputs.iter().map(|input| input.kind()).collect(),
             output_types: interface
@@ -214,6 +218,16 @@ fn reset_locals(kernel: &Kernel, frame: &Frame) -> Vec<ResetLocal> {
             init: array.init.clone(),
         })
         .collect()
+}
+
+/// The inputs that are parts of the id of the work-group, and the axis of each.
+fn workgroup_ids(interface: &Interface) -> Vec<(u32, u32)> {
+    let inputs = (0..).zip(&interface.inputs);
+    let ids = inputs.filter_map(|(at, input)| match *input {
+        Input::WorkgroupId(axis) => Some((at, axis)),
+        _ => None,
+    });
+    ids.collect()
 }
 
 /// The operations, parameters and arguments of a kernel.

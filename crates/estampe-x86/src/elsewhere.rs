@@ -58,6 +58,20 @@ impl Code {
         match *self {}
     }
 
+    /// Executes the kernel for several work-groups.
+    ///
+    /// # Errors
+    /// None: there is no code to run.
+    pub fn run_workgroups(
+        &self,
+        _: Level,
+        _: &Run<'_>,
+        _: &[[u32; 3]],
+        _: &mut Scratch,
+    ) -> Result<(), Stopped> {
+        match *self {}
+    }
+
     /// The instruction set.
     #[must_use]
     pub fn isa(&self) -> Isa {

@@ -18,6 +18,7 @@
 //! | spills | registers that did not fit |
 
 use estampe_ir::lanes::Kernel;
+use std::ops::Range;
 
 /// Offsets in the head, in bytes.
 pub(crate) const BUDGET: i32 = 0;
@@ -212,6 +213,12 @@ impl Frame {
     /// The bytes of the pointers, and of the steps: whole lines.
     pub(crate) fn pointer_bytes(&self) -> u32 {
         self.steps - self.pointers
+    }
+
+    /// The lines of the pointers and the steps of all packets of a pass.
+    pub(crate) fn pointer_lines(&self) -> Range<usize> {
+        let [start, end] = [self.pointers, self.steps + self.pointer_bytes()];
+        (start / PACKET) as usize..(end / PACKET) as usize
     }
 
     /// The address of a buffer; its lengths follow.

@@ -18,6 +18,7 @@
 //! * What is the same in all lanes of a run is computed once a run and lives in memory, from which
 //!   instructions read it as a broadcast operand; so do constants and the words of buffers at fixed
 //!   places. They need no registers.
+//! * A call runs several work-groups of a dispatch, which differ in their ids alone.
 //! * In a work-group each packet has the part of the frame where its registers are spilled for
 //!   itself. At a barrier code goes on with the next packet (`machine::passes`).
 //! * Operations that are rare, or act lane after lane, are calls of Rust functions (`serve`).

@@ -24,6 +24,8 @@ pub struct Scratch {
     workgroup: Vec<AtomicU32>,
     /// Where the data of the run are.
     tracks: Vec<Track>,
+    /// Pointers and steps as a work-group finds them.
+    pointers: Vec<Line>,
     /// The pointers of the last run that began with several passes.
     begin: Begin,
 }
@@ -68,7 +70,7 @@ impl Scratch {
     }
 
     /// The jumps backwards of the last run of a code, about: those of its last pass for every
-    /// packet; of a work-group all.
+    /// packet; of a work-group with barriers all, and of several work-groups the last one's.
     #[must_use]
     pub fn jumps(&self, code: &Code, run: &Run<'_>) -> u64 {
         let left = self
@@ -84,6 +86,14 @@ impl Scratch {
     }
 }
 
+/// How to run the packets of another work-group, as those of the first one.
+#[derive(Debug, Clone, Copy)]
+struct Again {
+    /// Where the function begins.
+    function: usize,
+    passes: usize,
+}
+
 impl Code {
     /// Executes the kernel in all lanes of all packets.
     ///
@@ -94,6 +104,25 @@ impl Code {
     /// # Panics
     /// Where an access to a texture panics.
     pub fn run(&self, level: Level, run: &Run<'_>, scratch: &mut Scratch) -> Result<(), Stopped> {
+        self.run_workgroups(level, run, &[], scratch)
+    }
+
+    /// Executes the kernel for work-groups with these ids, one after the other: each as
+    /// [`run`](Self::run) does with its own `Input::WorkgroupId`, all else being the same, which is
+    /// looked for once. Without ids, one run with the inputs as they are.
+    ///
+    /// # Errors
+    /// [`Stopped`] as for one run; the work-groups after it are not run.
+    ///
+    /// # Panics
+    /// Where an access to a texture panics.
+    pub fn run_workgroups(
+        &self,
+        level: Level,
+        run: &Run<'_>,
+        ids: &[[u32; 3]],
+        scratch: &mut Scratch,
+    ) -> Result<(), Stopped> {
         if run.packets == 0 {
             return Ok(());
         }
@@ -105,34 +134,47 @@ impl Code {
             lines,
             workgroup,
             tracks,
+            pointers,
             begin,
             ..
         } = scratch;
         find_data(run, tracks);
-        let context = Context {
-            served: &self.served,
-            frame: &self.frame,
-            run,
-            level,
-            reset_locals: &self.reset_locals,
-            workgroup,
-            states,
-            local_words: &self.local_words,
-            panic: RefCell::new(None),
-        };
         set_head(lines, frame::PASS_BUDGET, run.budget);
-        if let Some(prepare) = self.prepare {
-            enter(&self.executable, prepare, lines, &context);
+        let mut before = None;
+        for number in 0..ids.len().max(1) {
+            if number > 0 {
+                clear(workgroup);
+            }
+            if let Some(id) = ids.get(number) {
+                self.set_workgroup_id(*id, lines);
+            }
+            let context = Context {
+                served: &self.served,
+                frame: &self.frame,
+                run,
+                level,
+                reset_locals: &self.reset_locals,
+                workgroup,
+                states,
+                local_words: &self.local_words,
+                panic: RefCell::new(None),
+            };
+            if let Some(prepare) = self.prepare {
+                enter(&self.executable, prepare, lines, &context);
+            }
+            let stopped = match before {
+                Some(before) => self.run_again(before, (pointers, lines), &context),
+                None if self.workgroup_words.is_some() => {
+                    self.run_workgroup(run, (tracks, lines), &context)
+                }
+                None => self.run_packets(run, (tracks, lines), (begin, pointers), &context),
+            };
+            if let Some(panic) = context.panic.take() {
+                std::panic::resume_unwind(panic);
+            }
+            before = stopped?;
         }
-        let stopped = if self.workgroup_words.is_some() {
-            self.run_workgroup(run, (tracks, lines), &context)
-        } else {
-            self.run_packets(run, (tracks, lines), begin, &context)
-        };
-        if let Some(panic) = context.panic.take() {
-            std::panic::resume_unwind(panic);
-        }
-        stopped
+        Ok(())
     }
 
     /// Runs all packets of a work-group, each of which has a state.
@@ -141,25 +183,56 @@ impl Code {
         run: &Run<'_>,
         (tracks, lines): (&[Track], &mut [Line]),
         context: &Context<'_>,
-    ) -> Result<(), Stopped> {
+    ) -> Result<Option<Again>, Stopped> {
         let state_lines = (self.frame.state_bytes() / LINE) as usize;
         self.set_packets((run, tracks), lines, (0, run.packets), state_lines);
         set_head(lines, frame::PACKETS, run.packets as u64);
-        match enter(&self.executable, self.packet, lines, context) {
+        self.enter(self.packet, lines, context)?;
+        // Nothing moves the pointers of states.
+        Ok(Some(Again {
+            function: self.packet,
+            passes: 1,
+        }))
+    }
+
+    /// Runs another work-group as the one before, if need be with the pointers that it found.
+    fn run_again(
+        &self,
+        before: Again,
+        (pointers, lines): (&[Line], &mut [Line]),
+        context: &Context<'_>,
+    ) -> Result<Option<Again>, Stopped> {
+        if self.workgroup_words.is_none() {
+            lines[self.frame.pointer_lines()].copy_from_slice(pointers);
+        }
+        set_head(lines, frame::LEFT, before.passes as u64);
+        self.enter(before.function, lines, context)?;
+        Ok(Some(before))
+    }
+
+    fn enter(
+        &self,
+        function: usize,
+        lines: &mut [Line],
+        context: &Context<'_>,
+    ) -> Result<(), Stopped> {
+        match enter(&self.executable, function, lines, context) {
             0 => Ok(()),
             _ => Err(Stopped::Budget),
         }
     }
 
-    /// Runs packets one by one or two by two.
+    /// Runs packets one by one or two by two. Gives how to do it again, if one call ran all of them;
+    /// `again_pointers` then are what it found.
     fn run_packets(
         &self,
         run: &Run<'_>,
         (tracks, lines): (&[Track], &mut [Line]),
-        begin: &mut Begin,
+        (begin, again_pointers): (&mut Begin, &mut Vec<Line>),
         context: &Context<'_>,
-    ) -> Result<(), Stopped> {
+    ) -> Result<Option<Again>, Stopped> {
         let mut packet = 0;
+        let mut again = None;
         while packet < run.packets && !context.has_panicked() {
             let left = run.packets - packet;
             // The last packet of an odd number runs alone.
@@ -194,13 +267,33 @@ impl Code {
                     }
                 }
             }
-            set_head(lines, frame::LEFT, passes as u64);
-            if enter(&self.executable, function, lines, context) != 0 {
-                return Err(Stopped::Budget);
+            if self.has_workgroup_ids() && passes * of_pass == run.packets {
+                again_pointers.clear();
+                again_pointers.extend(&lines[self.frame.pointer_lines()]);
+                again = Some(Again { function, passes });
             }
+            set_head(lines, frame::LEFT, passes as u64);
+            self.enter(function, lines, context)?;
             packet += passes * of_pass;
         }
-        Ok(())
+        Ok(again)
+    }
+
+    /// True if the kernel asks for the id of its work-group, as those of dispatches do.
+    fn has_workgroup_ids(&self) -> bool {
+        !self.workgroup_ids.is_empty()
+    }
+
+    /// Sets the inputs that are the id of a work-group.
+    fn set_workgroup_id(&self, id: [u32; 3], lines: &mut [Line]) {
+        for &(at, axis) in &self.workgroup_ids {
+            let word = id.get(axis as usize).copied().unwrap_or_default();
+            for &(_, slot) in self.table_inputs.iter().filter(|(input, _)| *input == at) {
+                self.set_slot(slot, word, lines);
+            }
+            let still = self.frame.still + at * PACKET;
+            lines[(still / LINE) as usize] = splat(word);
+        }
     }
 
     /// True if all inputs of a run are in memory, so that none is made in the frame.
@@ -231,9 +324,7 @@ impl Code {
         if let Some(words) = self.workgroup_words {
             let memory = &mut scratch.workgroup;
             memory.truncate(words);
-            for word in &mut *memory {
-                *word.get_mut() = 0;
-            }
+            clear(memory);
             let reserved = memory.try_reserve_exact(words - memory.len());
             reserved.map_err(|_| Stopped::Memory)?;
             memory.resize_with(words, AtomicU32::default);
@@ -244,11 +335,15 @@ impl Code {
     /// Inputs that are words of the table.
     fn set_table(&self, run: &Run<'_>, lines: &mut [Line]) {
         for &(at, slot) in &self.table_inputs {
-            let word = run.input(at).first_word();
-            let offset = self.frame.slot(slot);
-            for copy in 0..self.frame.slot_bytes / 4 {
-                set_word(lines, offset + copy * 4, word);
-            }
+            self.set_slot(slot, run.input(at).first_word(), lines);
+        }
+    }
+
+    /// Sets a value of the table.
+    fn set_slot(&self, slot: u32, word: u32, lines: &mut [Line]) {
+        let offset = self.frame.slot(slot);
+        for copy in 0..self.frame.slot_bytes / 4 {
+            set_word(lines, offset + copy * 4, word);
         }
     }
 
@@ -384,6 +479,13 @@ impl Code {
             _ => 0,
         });
         frame + offset
+    }
+}
+
+/// Sets the memory of a work-group to zeros.
+fn clear(memory: &mut [AtomicU32]) {
+    for word in memory {
+        *word.get_mut() = 0;
     }
 }
 

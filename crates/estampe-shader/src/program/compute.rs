@@ -17,6 +17,10 @@ use estampe_types::{BindGroupLayout, Bindings};
 /// The most invocations of a work-group, whatever the limits of a device are.
 pub const MAX_INVOCATIONS: u32 = 1 << 16;
 
+/// The work-groups of a run: enough that what they share costs little, and few enough that a stage
+/// is soon found to run often.
+const TOGETHER: usize = 64;
+
 const LANE_NUMBERS: [u32; LANES] = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15];
 const PACKET: u32 = LANE_NUMBERS[LANES - 1] + 1;
 
@@ -120,7 +124,7 @@ impl TextCompute {
     fn input(
         &self,
         input: Input,
-        [id, count]: [[u32; 3]; 2],
+        count: [u32; 3],
         (immediates, packed): (&[u32], Option<&PackedBindings<'_>>),
     ) -> InputData<'_> {
         let part = |axes: [u32; 3], axis: u32| axes.get(axis as usize).copied().unwrap_or(0);
@@ -130,7 +134,8 @@ impl TextCompute {
                 InputData::words(ids.map_or(&[][..], Vec::as_slice), 0, 1)
             }
             Input::LocalInvocationIndex => InputData::words(&self.local_index, 0, 1),
-            Input::WorkgroupId(axis) => InputData::Uniform(part(id, axis)),
+            // Set for each work-group.
+            Input::WorkgroupId(_) => InputData::Uniform(0),
             Input::NumWorkgroups(axis) => InputData::Uniform(part(count, axis)),
             Input::Cover => InputData::Mask(&self.cover),
             Input::PushConstant(at) => immediate(immediates, at),
@@ -172,16 +177,22 @@ impl ComputeProgram for TextCompute {
         };
         let (buffers, textures) = (stage.buffers(bindings), stage.textures(bindings));
         let buffers = packed.map_or(buffers.all(), PackedBindings::buffers);
-        let mut inputs = Vec::new();
-        for id in work.ids() {
-            let of_group = stage.interface().inputs.iter();
-            inputs.clear();
-            let immediates = &bindings.immediates[..];
-            let of_dispatch = (immediates, packed);
-            inputs.extend(of_group.map(|input| self.input(*input, [id, work.count], of_dispatch)));
-            let packets = self.cover.len();
+        let of_dispatch = (&bindings.immediates[..], packed);
+        let of_stage = stage.interface().inputs.iter();
+        let inputs = of_stage.map(|input| self.input(*input, work.count, of_dispatch));
+        let mut inputs: Vec<_> = inputs.collect();
+        let packets = self.cover.len();
+        let mut ids = work.ids();
+        let mut together = Vec::with_capacity(TOGETHER);
+        loop {
+            together.clear();
+            together.extend(ids.by_ref().take(TOGETHER));
+            if together.is_empty() {
+                break;
+            }
+            let (bound, groups) = ((&textures, buffers), (packets, &together[..]));
             stage
-                .run(level, (&textures, buffers), packets, (&inputs, &[]))
+                .run_workgroups(level, bound, groups, &mut inputs)
                 .map_err(|stopped| match stopped {
                     Stopped::Budget => ComputeStopped::Budget,
                     Stopped::Memory => ComputeStopped::OutOfMemory,

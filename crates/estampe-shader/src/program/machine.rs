@@ -33,20 +33,22 @@ struct OfIsa {
 }
 
 impl MachineCode {
-    /// Runs a kernel by machine code; `None` if there is none for the level.
+    /// Runs a kernel by machine code, for work-groups with these ids if there are any; `None` if
+    /// there is none for the level.
     pub(super) fn run(
         &self,
         kernel: &Kernel,
         level: Level,
-        run: &Run<'_>,
+        (run, ids): (&Run<'_>, &[[u32; 3]]),
     ) -> Option<Result<(), Stopped>> {
         let isa = Isa::of(level)?;
         let of_isa = &self.of_isa[isa as usize];
         let code = of_isa.code(kernel, isa)?;
         Some(with_workspace(code, |scratch| {
-            let stopped = code.run(level, run, scratch);
+            let stopped = code.run_workgroups(level, run, ids, scratch);
             of_isa.count(kernel, isa, || {
-                (run.packets as u64).saturating_add(scratch.jumps(code, run))
+                let of_run = (run.packets as u64).saturating_add(scratch.jumps(code, run));
+                of_run.saturating_mul(ids.len().max(1) as u64)
             });
             stopped
         }))

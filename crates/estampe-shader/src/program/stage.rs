@@ -7,7 +7,7 @@ use super::machine::MachineCode;
 use super::nondependent::Reads;
 use super::textures::BoundTextures;
 use estampe_ir::Op;
-use estampe_ir::interface::{Interface, TextureSlot};
+use estampe_ir::interface::{Input, Interface, TextureSlot};
 use estampe_ir::interpreter::{Buffer, Code, InputData, OutputData, Run, Scratch, Stopped};
 use estampe_ir::lanes::Kernel;
 use estampe_ir::op::TextureQuery;
@@ -179,11 +179,44 @@ impl Stage {
             budget: self.budget,
         };
         if !self.is_interpreted
-            && let Some(stopped) = self.machine.run(&self.kernel, level, &run)
+            && let Some(stopped) = self.machine.run(&self.kernel, level, (&run, &[]))
         {
             return stopped;
         }
         self.run_bytecode(level, &run)
+    }
+
+    /// Runs so many packets for each of some work-groups, one after the other. The inputs that are
+    /// their ids are set here.
+    pub(super) fn run_workgroups(
+        &self,
+        level: Level,
+        (textures, buffers): (&BoundTextures<'_>, &[Buffer<'_>]),
+        (packets, ids): (usize, &[[u32; 3]]),
+        inputs: &mut [InputData<'_>],
+    ) -> Result<(), Stopped> {
+        let of_all = Run {
+            buffers,
+            textures,
+            budget: self.budget,
+            ..Run::new(packets)
+        };
+        let run = Run { inputs, ..of_all };
+        if !self.is_interpreted
+            && let Some(stopped) = self.machine.run(&self.kernel, level, (&run, ids))
+        {
+            return stopped;
+        }
+        for id in ids {
+            for (input, data) in self.interface().inputs.iter().zip(&mut *inputs) {
+                if let Input::WorkgroupId(axis) = input {
+                    let part = id.get(*axis as usize).copied();
+                    *data = InputData::Uniform(part.unwrap_or_default());
+                }
+            }
+            self.run_bytecode(level, &Run { inputs, ..of_all })?;
+        }
+        Ok(())
     }
 
     #[inline(never)]

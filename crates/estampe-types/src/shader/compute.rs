@@ -36,15 +36,25 @@ pub struct Workgroups {
 impl Workgroups {
     /// The x, y and z of the work-groups to run, in order.
     pub fn ids(&self) -> impl Iterator<Item = [u32; 3]> {
-        let [width, height] = [self.count[0], self.count[1]].map(|side| u64::from(side.max(1)));
+        let [width, height, _] = self.count.map(|side| side.max(1));
+        let [of_row, of_slice] = [width, height].map(u64::from);
         let small = |number: u64| u32::try_from(number).unwrap_or(u32::MAX);
-        self.range.clone().map(move |number| {
-            let row = number / width;
-            [
-                small(number % width),
-                small(row % height),
-                small(row / height),
-            ]
+        let row = self.range.start / of_row;
+        let mut next = [
+            small(self.range.start % of_row),
+            small(row % of_slice),
+            small(row / of_slice),
+        ];
+        self.range.clone().map(move |_| {
+            let id = next;
+            next[0] += 1;
+            if next[0] == width {
+                next = [0, next[1] + 1, next[2]];
+            }
+            if next[1] == height {
+                next = [next[0], 0, next[2].saturating_add(1)];
+            }
+            id
         })
     }
 }

@@ -2,6 +2,7 @@
 #![cfg(target_arch = "x86_64")]
 
 mod pipelined;
+mod several;
 
 use estampe_ir::interpreter::{
     self, Buffer, InputData, NoTextures, OutputData, Run, Stopped, TextureAccess, Textures, cells,
@@ -36,8 +37,12 @@ fn left(packets: usize, budget: u64, textures: &dyn Textures, go: Runner<'_>) ->
         ..Run::new(packets)
     });
     let words = output.iter().flat_map(|packet| packet.0).collect();
-    let memory = memory.iter().map(|word| word.load(Ordering::Relaxed));
-    (result.map(|()| words), memory.collect())
+    (result.map(|()| words), memory_words(&memory))
+}
+
+fn memory_words(memory: &[AtomicU32]) -> Vec<u32> {
+    let words = memory.iter().map(|word| word.load(Ordering::Relaxed));
+    words.collect()
 }
 
 /// What the interpreter and all codes leave, which is the same.

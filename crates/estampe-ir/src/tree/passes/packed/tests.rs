@@ -76,6 +76,11 @@ impl Surroundings for Bound {
 }
 
 #[test]
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "a code is a byte"
+)]
 fn texels_are_words() {
     let mut tree = tree();
     let textures = packed_textures(&tree);
