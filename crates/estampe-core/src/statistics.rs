@@ -42,13 +42,14 @@ pub struct Statistics {
     /// depend on the SIMD level.
     #[doc(hidden)]
     pub fragments_across_triangles: [u64; 2],
-    /// Parts of packets that were shaded together with those of other triangles at the same place.
-    /// They depend on the SIMD level.
-    #[doc(hidden)]
-    pub packets_joined: u64,
-    /// Fragments of four samples each that filled packets pixel by pixel.
+    /// Fragments of visible triangles that filled packets pixel by pixel. They depend on the SIMD
+    /// level.
     #[doc(hidden)]
     pub fragments_by_pixels: u64,
+    /// Of these, those that were found triangle by triangle, in the packets that each had touched.
+    /// They depend on the SIMD level.
+    #[doc(hidden)]
+    pub fragments_by_triangle: u64,
     /// Quads that were shaded in packets together with those of other triangles of a run. They
     /// depend on the SIMD level.
     #[doc(hidden)]
@@ -200,8 +201,8 @@ impl std::ops::AddAssign for Statistics {
         self.triangles_set_up_in_lanes += other.triangles_set_up_in_lanes;
         self.triangles_gathered += other.triangles_gathered;
         self.triangles_in_fans += other.triangles_in_fans;
-        self.packets_joined += other.packets_joined;
         self.fragments_by_pixels += other.fragments_by_pixels;
+        self.fragments_by_triangle += other.fragments_by_triangle;
         self.quads_across_triangles += other.quads_across_triangles;
         self.visibility_runs += other.visibility_runs;
         self.paths += other.paths;

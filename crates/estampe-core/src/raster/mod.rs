@@ -25,6 +25,8 @@ pub(crate) mod convex;
 
 pub(crate) mod parts;
 
+mod box_packets;
+
 pub(crate) mod small;
 
 pub(crate) mod small_lines;

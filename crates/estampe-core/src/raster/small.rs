@@ -64,7 +64,10 @@ pub(crate) struct SmallBoxes<const N: usize> {
     /// Rows of the largest box.
     rows: usize,
     /// By lane: column and row of the box's first pixel in the tile, the row in the upper half.
-    first: [u32; LANES],
+    pub(super) first: [u32; LANES],
+    /// By lane: columns and rows of the box, less one, the rows in the upper half; of
+    /// [small triangles](Self::cover_boxes) alone.
+    pub(super) extent: [u32; LANES],
     /// By lane: the distance of that pixel's first sample from the planes' origin.
     from_x: [f32; LANES],
     from_y: [f32; LANES],
@@ -76,6 +79,7 @@ impl<const N: usize> Default for SmallBoxes<N> {
             covered: [[[0; LANES]; 2]; N],
             rows: 0,
             first: [0; LANES],
+            extent: [0; LANES],
             from_x: [0.0; LANES],
             from_y: [0.0; LANES],
         }
@@ -180,6 +184,10 @@ impl<const N: usize> SmallBoxes<N> {
         self.cover_pixels(s, &edges, &pixels, positions);
         let offsets = [place[0] - x0, place[1] - y0];
         self.set_places([x_first - splat(tile.x), y_first - splat(tile.y)], offsets);
+        // No packets in an empty box: it ends far away.
+        let extent = among.select(across | (down << 16), splat(0x7FFF_7FFF));
+        let extent: u32x16<S> = extent.bitcast();
+        extent.store_array(&mut self.extent);
         small
     }
 
@@ -410,7 +418,7 @@ fn splat_u32<S: Lanes>(s: S, value: u32) -> u32x16<S> {
 /// Morton order: the index in its tile of a pixel whose column is in the lower half and whose row
 /// is in the upper half, six bits each.
 #[inline(always)]
-fn spread<S: Lanes>(s: S, v: u32x16<S>) -> u32x16<S> {
+pub(super) fn spread<S: Lanes>(s: S, v: u32x16<S>) -> u32x16<S> {
     let mask = |bits: u32| <u32x16<S> as SimdBase<S>>::splat(s, bits);
     let v = v & mask(0x3F_003F);
     let v = (v | (v << 4)) & mask(0x030F_030F);

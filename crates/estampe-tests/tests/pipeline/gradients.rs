@@ -51,7 +51,7 @@ fn derivatives_of_triangles() {
             case
         });
         let [fragments, _] = statistics.fragments_across_triangles;
-        let shares = statistics.packets_joined > 0 && fragments > 0;
+        let shares = statistics.fragments_by_pixels > 0 && fragments > 0;
         assert!(samples > 1 || shares, "no triangles share packets");
     }
 }
@@ -125,26 +125,30 @@ fn derivatives_of_odd_values() {
 }
 
 /// Many triangles of which several meet in most packets; shaders that read the position and the
-/// side that is seen, which are those of each lane's triangle.
-///
-/// Rows: R1, R5, O3.
-#[test]
-fn triangles_share_packets_where_no_quads_are_needed() {
-    let paths = ExpectedPaths(&[TilePath::VisibilityCrossTriangle, TilePath::VisibilityQuads]);
-    let statistics = check_meeting("gradients/joined", 1, paths);
-    let joined = statistics.packets_joined;
-    assert!(joined > 1000, "{joined} parts of packets share one");
-}
-
-/// The same with four samples, where triangles meet at pixels too.
+/// side that is seen, which are those of each lane's triangle. With four samples, triangles meet at
+/// pixels too.
 ///
 /// Rows: R1, R5, R6, O3.
 #[test]
 fn pixels_fill_packets_where_no_quads_are_needed() {
-    let paths = ExpectedPaths(&[TilePath::VisibilityQuads]);
-    let statistics = check_meeting("gradients/by pixels", 4, paths);
-    let by_pixels = statistics.fragments_by_pixels;
-    assert!(by_pixels > 1000, "{by_pixels} fragments fill packets");
+    use TilePath::{VisibilityCrossTriangle, VisibilityQuads};
+    for (samples, paths) in [
+        (
+            1,
+            ExpectedPaths(&[VisibilityCrossTriangle, VisibilityQuads]),
+        ),
+        (4, ExpectedPaths(&[VisibilityQuads])),
+    ] {
+        let topic = format!("gradients/by pixels_{samples}");
+        let statistics = check_meeting(&topic, samples, paths);
+        let by_pixels = statistics.fragments_by_pixels;
+        assert!(by_pixels > 1000, "{by_pixels} fragments fill packets");
+        let listed = statistics.fragments_by_triangle;
+        assert!(
+            listed > 1000,
+            "{listed} of them were found triangle by triangle"
+        );
+    }
 }
 
 /// Shaders that take derivatives by quads: those of triangles of any size share packets.

@@ -3,13 +3,8 @@
 //! Packets of one colour: nothing varies over their primitives, so the program is run for one
 //! packet of all. Windows and panels of user interfaces are such primitives: one colour, at one
 //! place of a texture.
-//!
-//! Packets of several primitives at one place: if fragments need no quads, each lane is shaded for
-//! the primitive that it shows, and none is a helper.
 
-use super::{CAPACITY, FragmentQueue, PrimitivePacket};
-use crate::depth_format::clamp_depth;
-use crate::fragment::interpolate::Interpolant;
+use super::FragmentQueue;
 use crate::fragment::place::Place;
 use crate::pipeline::RenderPipeline;
 use estampe_simd::{LANES, Lanes, Level, Packet, Select, SimdBase, f32x16};
@@ -77,54 +72,6 @@ impl<const N: usize> FragmentQueue<N> {
     #[inline(always)]
     pub(crate) fn empty_solid(&mut self) {
         self.len = 0;
-    }
-
-    /// The slot of the packet that was queued last.
-    #[inline(always)]
-    pub(crate) fn last_slot(&self) -> usize {
-        self.len.wrapping_sub(1) % CAPACITY
-    }
-
-    /// Adds a packet of another primitive, of which nothing but colours is asked, to the slot of a
-    /// packet at the same place, in lanes that it does not use yet.
-    #[inline(always)]
-    pub(crate) fn join<S: Lanes>(
-        &mut self,
-        s: S,
-        interpolant: &impl Interpolant<S>,
-        packet: &PrimitivePacket<N>,
-        slot: usize,
-    ) {
-        let shaded = self.shaded(slot);
-        let lanes = packet.alive.any();
-        debug_assert_eq!(
-            self.coverage[shaded] & lanes,
-            0,
-            "a lane shows one primitive"
-        );
-        for (mask, more) in self.masks[slot].iter_mut().zip(packet.alive.masks) {
-            *mask |= more;
-        }
-        self.coverage[shaded] |= lanes;
-        if packet.front {
-            self.front_facing[shaded] |= lanes;
-        } else {
-            self.front_facing[shaded] &= !lanes;
-        }
-        if self.scalars != 0 {
-            interpolant.varyings(s, packet.pixel, &mut self.spare);
-        }
-        let out = &mut self.varyings[shaded * self.scalars..][..self.scalars];
-        for (to, value) in out.iter_mut().zip(&self.spare) {
-            replace(s, to, lanes, f32x16::load_array_ref(s, &value.0));
-        }
-        if self.needs.position {
-            let [_, _, z, w] = &mut self.positions[shaded];
-            let depth = interpolant.depth(s, packet.pixel, [0.5; 2]);
-            let depth = clamp_depth(s, depth, self.needs.depth_range);
-            replace(s, z, lanes, depth);
-            replace(s, w, lanes, interpolant.inverse_w(s, packet.pixel));
-        }
     }
 }
 

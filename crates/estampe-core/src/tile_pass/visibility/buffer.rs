@@ -2,6 +2,7 @@
 
 use super::ONLY_WIDE;
 use super::shortcuts::SinglePrimitiveBlocks;
+use super::touched::TouchedPackets;
 use crate::bounds::bins::BinEntry;
 use crate::bounds::chunk::Chunk;
 use crate::plan::tile_plan::TilePlan;
@@ -86,6 +87,7 @@ pub(super) struct VisibilityBuffer<const N: usize> {
     pub(super) shown: ShownSamples,
     /// Blocks that show one triangle at every sample, whose ids are not written.
     pub(super) single: SinglePrimitiveBlocks,
+    pub(super) touched: TouchedPackets,
     /// The ids of targets whose first texel is not one word: by packet and sample.
     pub(super) ids: Box<[[u32; LANES]]>,
 }
@@ -99,6 +101,7 @@ impl<const N: usize> Default for VisibilityBuffer<N> {
             unresolved: Box::new([[0; N]; MAX_PACKETS]),
             shown: ShownSamples::new(most_lines(N) * LANES),
             single: SinglePrimitiveBlocks::default(),
+            touched: TouchedPackets::default(),
             ids: vec![[0; LANES]; most_lines(N)].into(),
         }
     }
@@ -220,6 +223,7 @@ impl<const N: usize> VisibilityBuffer<N> {
         self.has_one_color_draws = false;
         self.unresolved.fill([0; N]);
         self.single = SinglePrimitiveBlocks::default();
+        self.touched.clear();
     }
 }
 

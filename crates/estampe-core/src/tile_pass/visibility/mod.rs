@@ -35,6 +35,7 @@ mod rasterize;
 mod resolve;
 mod shortcuts;
 mod small;
+mod touched;
 mod writer;
 
 use super::{TileJob, TilePass, TileScratch, TileWork, clear_blocks};

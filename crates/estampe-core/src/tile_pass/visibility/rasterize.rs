@@ -116,6 +116,9 @@ pub(super) struct Rasterizer<'a, 'j, 't, const N: usize> {
     pub(super) crosses_triangles: bool,
     /// The varyings that these read.
     pub(super) varyings: Option<VaryingSource<'a>>,
+    /// True if the packets that triangles touch are noted: their fragments have colours, and need
+    /// no quads.
+    pub(super) notes_packets: bool,
     /// True if triangles change stencil values and store no depth.
     counts: bool,
     /// Samples that passed all tests, where a query counts them.
@@ -132,14 +135,18 @@ impl<'a, 'j, 't, const N: usize> Rasterizer<'a, 'j, 't, N> {
         job: &'j mut TileJob<'t>,
         scratch: &'j mut TileScratch<N>,
     ) -> Self {
+        let storage = storage_of(work.plan);
+        let key = work.plan.pipeline.key();
+        let is_by_pixels = key.needs_no_quads && !key.uniform_over_primitive;
         Self {
             pass,
             work,
             samples: pass.sample_set(),
             order,
-            storage: storage_of(work.plan),
+            storage,
             crosses_triangles: work.plan.path == TilePath::VisibilityCrossTriangle,
             varyings: None,
+            notes_packets: N <= 4 && is_by_pixels && storage != IdStorage::None,
             counts: PacketRanges::serve(&work.plan.tests),
             passed: 0,
             job,
@@ -343,6 +350,9 @@ impl<'a, 'j, 't, const N: usize> Rasterizer<'a, 'j, 't, N> {
             self.clear_touched(touched, certain);
         }
         let visibility = &mut self.scratch.visibility;
+        if in_order && self.notes_packets {
+            visibility.buffer.touched.add(id, visibility.list.items());
+        }
         let mut single = std::mem::take(&mut visibility.buffer.single);
         let counts = plan.query.is_some().then_some(&mut self.passed);
         let target = (&plan.tests, self.samples, shape);

@@ -7,7 +7,7 @@ use super::rasterize::Rasterizer;
 use super::writer::VisibilityWriter;
 use crate::bounds::primitives::TrianglePacket;
 use crate::raster::pixel_list::{PixelList, lane_of};
-use estampe_simd::{LANES, Lanes, dispatch};
+use estampe_simd::{LANES, Lane, Lanes, dispatch};
 use std::hint::select_unpredictable;
 
 /// The ids of small triangles' samples.
@@ -88,6 +88,15 @@ impl<const N: usize> Rasterizer<'_, '_, '_, N> {
             } else {
                 writer.pixels(s, list, packet.front, &mut ByTriangle::new(entry))
             };
+        }
+        if self.notes_packets && !self.crosses_triangles {
+            let (packets, counts) = small.packets(s, lanes);
+            let numbering = ByTriangle::new(entry);
+            for lane in Lane::all_of(lanes) {
+                let of_lane = (lane.of(&packets).to_le_bytes(), lane.of(&counts));
+                let id = numbering.id_of(lane.get());
+                visibility.buffer.touched.add_small(id, of_lane);
+            }
         }
         visibility.buffer.single = single;
         if plan.tests.writes_depth() {

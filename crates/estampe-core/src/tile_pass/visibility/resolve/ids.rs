@@ -40,7 +40,7 @@ impl<const N: usize> Resolver<'_, '_, '_, N> {
 
     /// The lanes of a line of ids that hold an id.
     #[inline(always)]
-    fn lanes_of<S: Lanes>(&self, s: S, line: usize, id: u32) -> u16 {
+    pub(super) fn lanes_of<S: Lanes>(&self, s: S, line: usize, id: u32) -> u16 {
         let ids = u32x16::load_array_ref(s, &self.ids()[line]);
         s.bits_of_mask(ids.simd_eq(<u32x16<S> as SimdBase<S>>::splat(s, id)))
     }

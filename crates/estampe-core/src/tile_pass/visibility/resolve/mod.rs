@@ -1,18 +1,18 @@
 //! The end of a run: every visible sample is shaded once, by the triangle that it shows.
 //!
 //! A packet that shows one triangle is shaded whole. Of others each triangle's quads are shaded in
-//! packets that they share with those of other triangles and places (`pixels.rs`); if fragments
-//! need no quads, each lane is shaded for the triangle that it shows (`joined.rs`, and `pixels.rs`
-//! where a pixel has four samples). Draws that share a pipeline and bindings are shaded together,
+//! packets that they share with those of other triangles and places (`pixels.rs`), or, if fragments
+//! need no quads, its pixels. Where smaller triangles may show was noted when they were covered,
+//! and is asked first (`touched.rs`). Draws that share a pipeline and bindings are shaded together,
 //! and those of one colour come first.
 
 mod early;
 mod groups;
 mod ids;
-mod joined;
 mod per_draw;
 mod per_primitive;
 mod pixels;
+mod touched;
 mod visible;
 
 use super::buffer::ShadingGroup;
@@ -39,7 +39,7 @@ use visible::VisibleTriangle;
 /// No place in a list.
 pub(super) const NONE: u32 = u32::MAX;
 
-/// Parts of packets with as many pixels are shaded alone.
+/// Parts of packets with as many pixels are shaded alone, of triangles whose packets are not noted.
 const FEW_IDLE: u32 = 13;
 
 /// Lines of the next tile that are prefetched for a visible packet, at most.
@@ -116,7 +116,7 @@ pub(in crate::tile_pass) fn resolve<const N: usize>(
         resolve.visible_of.clear();
         resolve.visible_of.resize(buffer.triangles.len(), NONE);
         resolve.quads.begin_run(buffer.triangles.len());
-        if const { N == 4 } {
+        if const { N <= 4 } {
             resolve.parts.begin_run(buffer.triangles.len());
         }
         let words = plan.pipeline.color_targets()[0].codec.words();
@@ -249,7 +249,10 @@ impl<'a, 'j, 't, const N: usize> Resolver<'a, 'j, 't, N> {
     #[inline(always)]
     fn packets<S: Lanes>(&mut self, s: S, group: &ShadingGroup, packets: PacketSet) {
         let key = self.plan.pipeline.key();
-        let (per_primitive, joins) = (key.uniform_over_primitive, key.needs_no_quads && N == 1);
+        let per_primitive = key.uniform_over_primitive;
+        if const { N <= 4 } && key.needs_no_quads && !per_primitive {
+            self.touched(s, group);
+        }
         let visible = packets.iter().map(|packets| packets.count_ones() as usize);
         let lines = self.job.next.len().div_ceil(visible.sum::<usize>().max(1));
         let lines = lines.min(MOST_AHEAD);
@@ -271,7 +274,6 @@ impl<'a, 'j, 't, const N: usize> Resolver<'a, 'j, 't, N> {
                     Some(_) => continue,
                     None => self.take_unresolved(s, number, group),
                 };
-                let mut slot = None;
                 while left != [0; N] {
                     let (id, covered) = match single {
                         Some(id) => (id, std::mem::replace(&mut left, [0; N])),
@@ -285,8 +287,6 @@ impl<'a, 'j, 't, const N: usize> Resolver<'a, 'j, 't, N> {
                     };
                     if per_primitive {
                         self.fill(s, id, &covered);
-                    } else if joins {
-                        self.join(s, id, &covered, &mut slot);
                     } else {
                         self.queue(s, id, &covered);
                     }
@@ -301,12 +301,12 @@ impl<'a, 'j, 't, const N: usize> Resolver<'a, 'j, 't, N> {
     fn queue<S: Lanes>(&mut self, s: S, id: u32, covered: &Covered<N>) {
         let any = covered.any();
         let needs_no_quads = self.plan.pipeline.key().needs_no_quads;
-        if const { N == 4 } && needs_no_quads && any.count_ones() < FEW_IDLE {
+        if const { N <= 4 } && needs_no_quads && any.count_ones() < FEW_IDLE {
             self.scratch.visibility.resolve.parts.add(id, *covered);
             return;
         }
         let quads = (any | any >> 1 | any >> 2 | any >> 3) & 0x1111;
-        if quads != 0x1111 && !(const { N == 4 } && needs_no_quads) {
+        if quads != 0x1111 && !(const { N <= 4 } && needs_no_quads) {
             let resolve = &mut self.scratch.visibility.resolve;
             resolve.quads.add(id, *covered, quads);
             return;
@@ -315,13 +315,12 @@ impl<'a, 'j, 't, const N: usize> Resolver<'a, 'j, 't, N> {
         if self.scratch.queue.is_full() {
             self.flush();
         }
-        self.push(s, visible, covered, None);
+        self.push(s, visible, covered);
     }
 
-    /// Queues a packet of a visible triangle; in the slot of another packet of the same place, if
-    /// one is given.
+    /// Queues a packet of a visible triangle.
     #[inline(always)]
-    fn push<S: Lanes>(&mut self, s: S, visible: usize, covered: &Covered<N>, slot: Option<usize>) {
+    fn push<S: Lanes>(&mut self, s: S, visible: usize, covered: &Covered<N>) {
         let (x, y) = packet_origin(u32::from(covered.packet));
         let pixel = [self.origin[0] + x, self.origin[1] + y];
         let TileScratch {
@@ -335,10 +334,7 @@ impl<'a, 'j, 't, const N: usize> Resolver<'a, 'j, 't, N> {
             front,
             sample: None,
         };
-        match slot {
-            Some(slot) => queue.join(s, &triangle, &packet, slot),
-            None => queue.push(s, &triangle, &packet),
-        }
+        queue.push(s, &triangle, &packet);
     }
 
     /// Shades the queued packets and stores their colours.

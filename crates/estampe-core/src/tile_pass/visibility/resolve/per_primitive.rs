@@ -68,7 +68,7 @@ impl<const N: usize> Resolver<'_, '_, '_, N> {
             packet: 0,
             masks: self.samples.whole(),
         };
-        self.push(s, visible, &any, None);
+        self.push(s, visible, &any);
         self.keep_primitive(visible);
     }
 

@@ -25,11 +25,11 @@ use estampe_simd::{LANES, Lanes, SimdBase, SimdCvtFloat, f32x16, i32x16, u32x16}
 use std::ops::Range;
 
 /// A packet of triangles, and what is noted of them.
-struct NotedTriangles<'a> {
-    triangles: &'a TrianglePacket,
-    source: VaryingSource<'a>,
+pub(super) struct NotedTriangles<'a> {
+    pub(super) triangles: &'a TrianglePacket,
+    pub(super) source: VaryingSource<'a>,
     /// True if quads are noted, not pixels.
-    are_quads: bool,
+    pub(super) are_quads: bool,
 }
 
 impl<const N: usize> Resolver<'_, '_, '_, N> {
@@ -116,7 +116,7 @@ impl<const N: usize> Resolver<'_, '_, '_, N> {
 
     /// Fills packets with the listed fragments, and empties the list.
     #[inline(always)]
-    fn fill_packets<S: Lanes>(&mut self, s: S, noted: &NotedTriangles<'_>) {
+    pub(super) fn fill_packets<S: Lanes>(&mut self, s: S, noted: &NotedTriangles<'_>) {
         let count = self.scratch.visibility.resolve.fragments.len();
         if count == 0 {
             return;
