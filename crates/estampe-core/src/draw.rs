@@ -1,13 +1,13 @@
 //! The page on which the pipeline reads: what a draw is, and the order in which its stages run.
 
-use crate::attachment::{RenderTarget, TileRows};
-use crate::bounds::chunk::{Chunk, ChunkIndex};
+use crate::attachment::{RenderTarget, RowsPlace};
+use crate::bounds::chunk::Chunk;
+use crate::bounds::chunk_index::ChunkIndex;
 use crate::bounds::pixel_rect::PixelRect;
 use crate::commands::{Discards, Draw, OcclusionQueries, RenderPass};
 use crate::geometry::chunk::{ChunkScratch, Neighbours, add_part};
 use crate::geometry::shaded_vertices::{ShadedVertices, VertexJob};
 use crate::geometry::shading::{ShadingScratch, shade};
-use crate::layout::texel_words;
 use crate::plan::chunk_plan::{ChunkPart, ChunkPlan, VERTEX_CHUNK, part_size};
 use crate::plan::draw_batch::DrawBatch;
 use crate::plan::draw_cursor::DrawCursor;
@@ -227,7 +227,9 @@ impl Context {
                 }
                 self.shade_vertices(executor, (&batch, group.clone()), memory);
                 let samples = target.samples() as usize;
-                chunks += self.build_chunks((&batch, group), samples, chunks, memory);
+                let (count, built) = self.build_chunks((&batch, group), samples, chunks, memory);
+                chunks += count;
+                statistics += built;
                 statistics.groups_of_geometry += 1;
             }
             if batch.sub_draws.is_empty() {
@@ -319,14 +321,14 @@ impl Context {
 
     /// Geometry, second half: primitives are assembled, culled, clipped, set up and binned, in
     /// chunks. Where a chunk ends changes no result: groups grow with the threads. The chunks of a
-    /// group come behind those of the groups before; says how many they are.
+    /// group come behind those of the groups before; gives how many they are, and what was counted.
     fn build_chunks(
         &self,
         (batch, group): (&DrawBatch<'_>, Range<usize>),
         samples: usize,
         before: usize,
         memory: &mut Memory,
-    ) -> usize {
+    ) -> (usize, Statistics) {
         let sub_draws = &batch.sub_draws[group.clone()];
         let threads = self.executor.threads();
         memory.chunk_plan.build(group.start, sub_draws, threads);
@@ -363,9 +365,15 @@ impl Context {
                     joins_last = joins_next;
                 }
                 job.chunk.bins.sort();
+                scratch.statistics += std::mem::take(&mut job.chunk.statistics);
             });
         memory.lists.chunk_jobs = recycled(jobs);
-        count
+        let mut statistics = Statistics::default();
+        for worker in &mut memory.chunk_scratch {
+            let worker = worker.get_mut().unwrap_or_else(PoisonError::into_inner);
+            statistics += std::mem::take(&mut worker.statistics);
+        }
+        (count, statistics)
     }
 
     /// The tile side: every tile consumes the chunks in order.
@@ -418,10 +426,14 @@ impl Context {
                 varyings: memory.vertices.of_span(&sub_draw.span).varyings,
             }));
         }
+        let mut jobs = recycled(std::mem::take(&mut memory.lists.tile_jobs));
+        let (grid, size) = (target.grid(), target.size);
+        let stores = tile_pass::jobs_of(target, is_last && !discards.depth_stencil, &mut jobs);
+        let places: Vec<RowsPlace> = stores.rows.iter().map(|rows| rows.place).collect();
         let pass = TilePass {
             level: self.level,
-            grid: target.grid(),
-            target: PixelRect::of_target(None, target.size.width, target.size.height),
+            grid,
+            target: PixelRect::of_target(None, size.width, size.height),
             plans: &plans,
             chunks,
             chunk_index: &memory.chunk_index,
@@ -430,88 +442,33 @@ impl Context {
             occlusion_queries,
             discards,
             resolved,
+            rows: &places,
         };
-        let mut jobs = recycled(std::mem::take(&mut memory.lists.tile_jobs));
-        tile_jobs(target, is_last && !discards.depth_stencil, &mut jobs);
-        // A pass that a program's panic ended has left what it knew.
-        let mut lost = Statistics::default();
-        end_pass(&mut memory.tiles_1, &mut lost);
-        end_pass(&mut memory.tiles_4, &mut lost);
-        end_pass(&mut memory.tiles_many, &mut lost);
         let mut statistics = Statistics::default();
         match facts.samples {
             1 if !self.level.is_scalar() => {
                 executor.for_each_ahead(&mut jobs, &memory.tiles_1, |job, next, scratch| {
-                    tile_pass::draw(&pass, job, next, scratch);
+                    tile_pass::draw((&pass, &stores), job, next, scratch);
                 });
                 end_pass(&mut memory.tiles_1, &mut statistics);
             }
             4 if !self.level.is_scalar() => {
                 executor.for_each_ahead(&mut jobs, &memory.tiles_4, |job, next, scratch| {
-                    tile_pass::draw(&pass, job, next, scratch);
+                    tile_pass::draw((&pass, &stores), job, next, scratch);
                 });
                 end_pass(&mut memory.tiles_4, &mut statistics);
             }
             _ => {
                 executor.for_each_ahead(&mut jobs, &memory.tiles_many, |job, next, scratch| {
-                    tile_pass::draw(&pass, job, next, scratch);
+                    tile_pass::draw((&pass, &stores), job, next, scratch);
                 });
                 end_pass(&mut memory.tiles_many, &mut statistics);
             }
-        }
-        for chunk in chunks {
-            statistics += chunk.statistics;
         }
         memory.lists.tile_jobs = recycled(jobs);
         memory.lists.plans = recycled(plans);
         memory.lists.tile_states = recycled(states);
         Ok(statistics)
-    }
-}
-
-/// Cuts a target into its tiles' slices; `keeps_depths` says that they are drawn last, and that
-/// their depths are kept.
-fn tile_jobs<'a>(target: &'a mut RenderTarget, keeps_depths: bool, jobs: &mut Vec<TileJob<'a>>) {
-    let grid = target.grid();
-    let elements = grid.tile_pixels() * target.samples() as usize;
-    jobs.extend((0u32..).take(grid.tiles()).map(|tile| TileJob {
-        tile,
-        ..TileJob::default()
-    }));
-    for (index, color) in target.colors.iter_mut().enumerate() {
-        let elements = elements * texel_words(color.format());
-        for (job, slice) in jobs.iter_mut().zip(color.words.chunks_exact_mut(elements)) {
-            job.colors[index] = slice.as_chunks_mut().0;
-        }
-    }
-    for resolve in &mut target.resolves {
-        let elements = grid.tile_pixels() * texel_words(resolve.into.format());
-        let slices = resolve.into.words.chunks_exact_mut(elements);
-        for (job, slice) in jobs.iter_mut().zip(slices) {
-            job.resolved[resolve.color] = slice;
-        }
-    }
-    for rows in target.rows.iter_mut().filter(|rows| rows.is_done) {
-        let color = (rows.color, target.color_formats[rows.color]);
-        if let Some(words) = rows.words_mut() {
-            let tiles = TileRows::of_image(color, target.size, words);
-            for (job, of_tile) in jobs.iter_mut().zip(tiles) {
-                job.rows.push(of_tile);
-            }
-        }
-    }
-    let Some(texels) = &mut target.depth_stencil else {
-        return;
-    };
-    let (depth, stencil, bounds) = texels.tiles_mut(keeps_depths);
-    for (job, slice) in jobs.iter_mut().zip(stencil.chunks_exact_mut(elements)) {
-        job.stencil = slice.as_chunks_mut().0;
-    }
-    for (job, slice) in jobs.iter_mut().zip(depth.chunks_exact_mut(elements)) {
-        job.depth = slice.as_chunks_mut().0;
-    }
-    for (job, of_tile) in jobs.iter_mut().zip(bounds.into_iter().flatten()) {
-        job.depth_bounds = Some(of_tile);
     }
 }
 

@@ -50,6 +50,11 @@ pub(crate) fn sse2<T>(simd: Sse2, value: &T) {
 }
 
 #[inline(always)]
+pub(crate) fn address_sse2(simd: Sse2, address: usize) {
+    line_sse2(simd, std::ptr::without_provenance(address));
+}
+
+#[inline(always)]
 pub(crate) fn elements_sse2(simd: Sse2, table: &[u32], index: u32x16<Sse2>) {
     each_element(table, index.to_array(), |line| line_sse2(simd, line));
 }
@@ -72,6 +77,11 @@ pub(crate) fn avx2<T>(simd: Avx2, value: &T) {
 }
 
 #[inline(always)]
+pub(crate) fn address_avx2(simd: Avx2, address: usize) {
+    line_avx2(simd, std::ptr::without_provenance(address));
+}
+
+#[inline(always)]
 pub(crate) fn elements_avx2(simd: Avx2, table: &[u32], index: u32x16<Avx2>) {
     each_element(table, index.to_array(), |line| line_avx2(simd, line));
 }
@@ -91,6 +101,11 @@ fn line_avx512(simd: Avx512, line: *const i8) {
 #[inline(always)]
 pub(crate) fn avx512<T>(simd: Avx512, value: &T) {
     each_line(value, |line| line_avx512(simd, line));
+}
+
+#[inline(always)]
+pub(crate) fn address_avx512(simd: Avx512, address: usize) {
+    line_avx512(simd, std::ptr::without_provenance(address));
 }
 
 #[inline(always)]

@@ -4,6 +4,7 @@
 //! its depths are in the cache: afterwards, they would come from memory once more. When a texture is
 //! taken, bounds are joined to windows, which reach over the edges of tiles.
 
+use super::bands::Bands;
 use super::texels::DepthStencilTexels;
 use crate::layout::BLOCK;
 use estampe_simd::Level;
@@ -32,38 +33,45 @@ enum Current {
     BoundsAndWindows,
 }
 
-/// The bounds of one tile's packets, in an image's bounds.
-#[derive(Debug, Default)]
-pub(crate) struct TileBounds<'a> {
-    rows: Vec<&'a mut [u32]>,
+/// The bounds of an image's packets, in rows, which workers find tile by tile.
+#[derive(Debug)]
+pub(crate) struct StoredBounds<'a> {
+    /// Words of a row, one for each packet.
+    stride: usize,
+    /// The rows of packets of a block each.
+    bands: Bands<'a>,
 }
 
-impl TileBounds<'_> {
-    /// Finds the bounds of the tile's depths.
-    pub(crate) fn find(&mut self, level: Level, depths: &[f32]) {
-        for (row, of_row) in self
-            .rows
-            .iter_mut()
-            .zip(ShadowMap::bounds_of_block(level, depths))
-        {
-            row.copy_from_slice(&of_row);
-        }
+impl StoredBounds<'_> {
+    /// Finds the bounds of the depths of the tile with this left column and top row.
+    pub(crate) fn find(&self, level: Level, origin: (u32, u32), depths: &[f32]) {
+        self.store(origin, ShadowMap::bounds_of_block(level, depths));
     }
 
     /// Sets the bounds of a tile of one depth.
-    pub(crate) fn fill(&mut self, depth: f32) {
+    pub(crate) fn fill(&self, origin: (u32, u32), depth: f32) {
         let bounds = ShadowMap::bounds_of_depth(depth);
-        self.rows.iter_mut().for_each(|row| row.fill(bounds));
+        self.store(origin, [[bounds; PACKETS]; PACKETS]);
+    }
+
+    fn store(&self, (left, top): (u32, u32), bounds: [[u32; PACKETS]; PACKETS]) {
+        let Some(mut band) = self.bands.lock((top / BLOCK) as usize) else {
+            return;
+        };
+        for (row, of_row) in band.chunks_exact_mut(self.stride).zip(bounds) {
+            row[left as usize / 4..][..PACKETS].copy_from_slice(&of_row);
+        }
     }
 }
 
 /// A part of an image whose bounds a worker finds.
 #[derive(Debug)]
-pub(crate) enum BoundsJob<'a> {
-    /// The bounds of a tile.
+pub(crate) enum BoundsJob<'a, 'b> {
+    /// The bounds of the tile with this left column and top row.
     Tile {
         depths: &'a [f32],
-        bounds: TileBounds<'a>,
+        origin: (u32, u32),
+        bounds: &'a StoredBounds<'b>,
     },
     /// Rows of windows, from the bounds of these rows on.
     Windows {
@@ -73,11 +81,15 @@ pub(crate) enum BoundsJob<'a> {
     },
 }
 
-impl BoundsJob<'_> {
+impl BoundsJob<'_, '_> {
     /// Finds the bounds.
     pub(crate) fn run(&mut self, level: Level) {
         match self {
-            Self::Tile { depths, bounds } => bounds.find(level, depths),
+            Self::Tile {
+                depths,
+                origin,
+                bounds,
+            } => bounds.find(level, *origin, depths),
             Self::Windows {
                 stride,
                 bounds,
@@ -88,26 +100,18 @@ impl BoundsJob<'_> {
 }
 
 impl DepthBounds {
-    /// The bounds of each tile of an image of one sample, in the order of tiles, to be written.
-    fn tiles(&mut self, [width, height]: [u32; 2]) -> impl Iterator<Item = TileBounds<'_>> {
+    /// The bounds of an image of one sample, to be found.
+    fn stored(&mut self, [width, height]: [u32; 2]) -> StoredBounds<'_> {
         self.words.resize(ShadowMap::bounds_len(width, height), 0);
-        let (stride, side) = (ShadowMap::bounds_stride(width), PACKETS);
-        self.words
-            .chunks_exact_mut(stride * side)
-            .flat_map(move |band| {
-                let mut left: Vec<_> = band.chunks_exact_mut(side).map(Some).collect();
-                let columns = stride / side;
-                (0..columns).map(move |column| {
-                    let rows = left[column..].iter_mut().step_by(columns);
-                    TileBounds {
-                        rows: rows.filter_map(Option::take).collect(),
-                    }
-                })
-            })
+        let stride = ShadowMap::bounds_stride(width);
+        StoredBounds {
+            stride,
+            bands: Bands::of(&mut self.words, stride * PACKETS),
+        }
     }
 
     /// The rows of windows of each row of tiles, to be written.
-    fn windows(&mut self, width: u32) -> impl Iterator<Item = BoundsJob<'_>> {
+    fn windows(&mut self, width: u32) -> impl Iterator<Item = BoundsJob<'_, '_>> {
         if Arc::get_mut(&mut self.windows).is_none() {
             self.windows = Arc::default();
         }
@@ -136,16 +140,12 @@ impl DepthStencilTexels {
         Arc::make_mut(&mut self.depth)
     }
 
-    /// The depths and stencil values for the last tiles of a pass, and the tiles' bounds, if these
-    /// are to be found with them; the bounds are then taken to be found.
+    /// The depths and stencil values for the last tiles of a pass, and their bounds, if these are
+    /// to be found with them; the bounds are then taken to be found.
     pub(crate) fn tiles_mut(
         &mut self,
         keeps_depths: bool,
-    ) -> (
-        &mut Lines<f32>,
-        &mut Lines<u8>,
-        Option<impl Iterator<Item = TileBounds<'_>>>,
-    ) {
+    ) -> (&mut Lines<f32>, &mut Lines<u8>, Option<StoredBounds<'_>>) {
         let finds = keeps_depths && self.bounds.are_wanted && self.has_texture();
         self.bounds.current = if finds {
             Current::Bounds
@@ -153,7 +153,7 @@ impl DepthStencilTexels {
             Current::Nothing
         };
         let size = [self.size.width, self.size.height];
-        let bounds = finds.then(|| self.bounds.tiles(size));
+        let bounds = finds.then(|| self.bounds.stored(size));
         (Arc::make_mut(&mut self.depth), &mut self.stencil, bounds)
     }
 
@@ -166,24 +166,27 @@ impl DepthStencilTexels {
     /// `None` without depth or with several samples.
     pub(crate) fn depth_texture(
         &mut self,
-        mut run_all: impl FnMut(&mut [BoundsJob<'_>]),
+        mut run_all: impl FnMut(&mut [BoundsJob<'_, '_>]),
     ) -> Option<ShadowMap> {
         if !self.has_texture() {
             return None;
         }
         let (width, height) = (self.size.width, self.size.height);
         if self.bounds.current == Current::Nothing {
-            let tiles = self.depth.chunks_exact((BLOCK * BLOCK) as usize);
-            let bounds = self.bounds.tiles([width, height]);
-            let jobs = tiles.zip(bounds);
-            let mut jobs: Vec<BoundsJob<'_>> = jobs
-                .map(|(depths, bounds)| BoundsJob::Tile { depths, bounds })
-                .collect();
+            let grid = self.size.grid();
+            let bounds = &self.bounds.stored([width, height]);
+            let tiles = self.depth.chunks_exact(grid.tile_pixels());
+            let jobs = (0..).zip(tiles).map(|(tile, depths)| BoundsJob::Tile {
+                depths,
+                origin: grid.tile_origin(tile),
+                bounds,
+            });
+            let mut jobs: Vec<_> = jobs.collect();
             run_all(&mut jobs);
             self.bounds.current = Current::Bounds;
         }
         if self.bounds.current == Current::Bounds {
-            let mut jobs: Vec<BoundsJob<'_>> = self.bounds.windows(width).collect();
+            let mut jobs: Vec<BoundsJob<'_, '_>> = self.bounds.windows(width).collect();
             run_all(&mut jobs);
             self.bounds.current = Current::BoundsAndWindows;
         }
@@ -216,7 +219,7 @@ mod tests {
             }
             for level in Level::all_available() {
                 let jobs =
-                    |jobs: &mut [BoundsJob<'_>]| jobs.iter_mut().for_each(|job| job.run(level));
+                    |jobs: &mut [BoundsJob<'_, '_>]| jobs.iter_mut().for_each(|job| job.run(level));
                 texels.bounds.current = Current::Nothing;
                 let map = texels.depth_texture(jobs).unwrap();
                 let stride = ShadowMap::bounds_stride(width);
@@ -249,20 +252,22 @@ mod tests {
         };
         let mut texels = DepthStencilTexels::zeros(TextureFormat::Depth32Float, size).unwrap();
         assert!(texels.tiles_mut(true).2.is_none(), "no texture was taken");
-        let run = |jobs: &mut [BoundsJob<'_>]| {
+        let run = |jobs: &mut [BoundsJob<'_, '_>]| {
             jobs.iter_mut().for_each(|job| job.run(Level::best()));
             // Six tiles; two rows of them.
             assert!(matches!(jobs, [BoundsJob::Tile { .. }, ..]) == (jobs.len() == 6));
             assert!(matches!(jobs.len(), 6 | 2));
         };
         assert!(texels.depth_texture(run).is_some());
+        let grid = size.grid();
         let (depths, _, bounds) = texels.tiles_mut(true);
         depths.fill(0.5);
-        let tiles = depths.chunks_exact(64 * 64).zip(bounds.unwrap());
-        for (number, (depths, mut bounds)) in tiles.enumerate() {
-            match number % 2 {
-                0 => bounds.find(Level::best(), depths),
-                _ => bounds.fill(0.5),
+        let bounds = bounds.unwrap();
+        for (tile, depths) in (0..).zip(depths.chunks_exact(64 * 64)) {
+            let origin = grid.tile_origin(tile);
+            match tile % 2 {
+                0 => bounds.find(Level::best(), origin, depths),
+                _ => bounds.fill(origin, 0.5),
             }
         }
         let map = texels.depth_texture(|jobs| {

@@ -193,7 +193,7 @@ impl<'a> RowsJob<'a> {
 /// So many bytes of each of a band's four rows, from a byte on. With a constant length, stores into
 /// them need no test.
 #[inline(always)]
-fn rows_of_band(
+pub(super) fn rows_of_band(
     band: &mut [u8],
     row_bytes: usize,
     from: usize,

@@ -15,6 +15,7 @@
 //! measured three times slower with rows in memory, where every packet touches four lines; rows are
 //! made once: on read-back, or tile by tile when an image that shaders sample is drawn.
 
+mod bands;
 mod depth_texture;
 mod detile;
 mod readback;
@@ -26,9 +27,9 @@ mod target;
 mod texels;
 mod tile_rows;
 
-pub(crate) use depth_texture::TileBounds;
+pub(crate) use depth_texture::StoredBounds;
 pub use resolve_depth::ResolveMode;
 pub use row_order::row_order_words;
 pub use target::{ColorResolve, ColorRows, RenderTarget, TargetShape};
 pub use texels::{ColorTexels, DepthStencilTexels, ImageSize};
-pub(crate) use tile_rows::TileRows;
+pub(crate) use tile_rows::{RowsPlace, StoredRows, TileLines};

@@ -49,6 +49,8 @@ pub(crate) struct Bins {
     /// there are tiles.
     starts: Vec<u32>,
     first_tile: u32,
+    /// The tiles that have entries, one bit each: the first word is that of `first_tile`.
+    touched: Vec<u64>,
     /// The index in `unsorted` of the first entry of the packet that is being binned: entries from
     /// there on may be merged.
     mergeable_from: usize,
@@ -59,6 +61,7 @@ impl Bins {
         self.unsorted.clear();
         self.sorted.clear();
         self.starts.clear();
+        self.touched.clear();
         self.mergeable_from = 0;
     }
 
@@ -110,6 +113,18 @@ impl Bins {
             self.starts[at] = self.starts[at - 1];
         }
         self.starts[0] = 0;
+        self.note_touched();
+    }
+
+    /// Notes which tiles have entries.
+    fn note_touched(&mut self) {
+        // As if the tiles began at that of the first bit, where none has entries yet.
+        let before = (self.first_tile % 64) as usize;
+        let words = (before + self.starts.len() - 1).div_ceil(64);
+        self.touched.resize(words, 0);
+        for (at, ends) in (before..).zip(self.starts.windows(2)) {
+            self.touched[at / 64] |= u64::from(ends[0] < ends[1]) << (at % 64);
+        }
     }
 
     /// The entries of a tile, in submission order.
@@ -124,12 +139,12 @@ impl Bins {
         }
     }
 
-    /// The tiles that have entries.
-    pub(super) fn tiles(&self) -> impl Iterator<Item = u32> {
-        let starts = self.starts.windows(2);
-        let all = (self.first_tile..).zip(starts);
-        all.filter(|(_, ends)| ends[0] < ends[1])
-            .map(|(tile, _)| tile)
+    /// Which of the tiles 64 · `word` to 64 · `word` + 63 have entries, one bit each.
+    pub(super) fn touched(&self, word: usize) -> u64 {
+        let at = word.checked_sub(self.first_tile as usize / 64);
+        at.and_then(|at| self.touched.get(at))
+            .copied()
+            .unwrap_or_default()
     }
 }
 
@@ -156,6 +171,25 @@ mod tests {
         assert_eq!(points(9), [3]);
         for tile in [0, 2, 4, 8, 10, u32::MAX] {
             assert!(bins.of_tile(tile).is_empty(), "tile {tile}");
+        }
+    }
+
+    #[test]
+    fn touched_tiles_are_those_with_entries() {
+        for tiles in [vec![0], vec![63, 64], vec![70, 190, 130], vec![200], vec![]] {
+            let mut bins = Bins::default();
+            // Twice, because memory is used again.
+            for _ in 0..2 {
+                bins.clear();
+                for &tile in &tiles {
+                    bins.push(tile, BinEntry::Point(tile));
+                }
+                bins.sort();
+                for tile in 0..320 {
+                    let bit = bins.touched(tile as usize / 64) >> (tile % 64) & 1;
+                    assert_eq!(bit == 1, tiles.contains(&tile), "tile {tile} of {tiles:?}");
+                }
+            }
         }
     }
 

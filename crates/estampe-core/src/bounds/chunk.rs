@@ -241,49 +241,6 @@ impl SubDrawCursor<'_> {
     }
 }
 
-/// For each tile the chunks that have entries for it, in order. A frame can have hundreds of chunks
-/// of which hardly any reaches a given tile: asking each chunk took longer than drawing.
-#[derive(Debug, Default)]
-pub(crate) struct ChunkIndex {
-    /// The index in `chunks` of each tile's first chunk; one element more than there are tiles.
-    starts: Vec<u32>,
-    chunks: Vec<u32>,
-}
-
-impl ChunkIndex {
-    /// Sorts a draw batch's chunks by the tiles of a target.
-    pub(crate) fn build(&mut self, tiles: usize, chunks: &[Chunk]) {
-        self.starts.clear();
-        self.starts.resize(tiles + 2, 0);
-        // Counted two places further on, so that after the sums place i + 1 is where tile i is
-        // filled next.
-        for tile in chunks.iter().flat_map(|chunk| chunk.bins.tiles()) {
-            self.starts[tile as usize + 2] += 1;
-        }
-        for at in 1..self.starts.len() {
-            self.starts[at] += self.starts[at - 1];
-        }
-        let all = self.starts.last().map_or(0, |all| *all as usize);
-        self.chunks.resize(all, 0);
-        for (number, chunk) in (0..).zip(chunks) {
-            for tile in chunk.bins.tiles() {
-                let next = &mut self.starts[tile as usize + 1];
-                self.chunks[*next as usize] = number;
-                *next += 1;
-            }
-        }
-    }
-
-    /// The numbers of the chunks that have entries for a tile.
-    pub(crate) fn of_tile(&self, tile: u32) -> &[u32] {
-        let at = tile as usize;
-        match (self.starts.get(at), self.starts.get(at + 1)) {
-            (Some(&from), Some(&to)) => &self.chunks[from as usize..to as usize],
-            _ => &[],
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -364,25 +321,5 @@ mod tests {
         assert_eq!(chunk.align_clipped_varyings(0), 0);
         assert_eq!(chunk.align_clipped_varyings(4), 3);
         assert_eq!(chunk.clipped_varyings.len(), 12);
-    }
-
-    #[test]
-    fn an_index_names_each_tiles_chunks_in_order() {
-        let chunk = |tiles: &[u32]| {
-            let mut chunk = Chunk::default();
-            for &tile in tiles {
-                chunk.bins.push(tile, BinEntry::Point(0));
-            }
-            chunk.bins.sort();
-            chunk
-        };
-        let chunks = [chunk(&[3, 1]), chunk(&[]), chunk(&[0, 1, 1]), chunk(&[3])];
-        let mut index = ChunkIndex::default();
-        // Twice, because its memory is used again.
-        for _ in 0..2 {
-            index.build(4, &chunks);
-            let found = [0, 1, 2, 3, 4].map(|tile| index.of_tile(tile).to_vec());
-            assert_eq!(found, [vec![2], vec![0, 2], vec![], vec![0, 3], vec![]]);
-        }
     }
 }

@@ -1,10 +1,11 @@
 //! The boundary between geometry and tiles: the plain data that both sides name.
 //!
-//! Geometry sets primitives up and writes them to [`chunk`]s, tiles read the chunks in order, and
-//! nothing flows back. A chunk holds [`primitives`] and [`lines`], most of them in
-//! [`packets`], and their [`bins`]. [`pixel_rect`],
-//! [`sample_rect`], [`plane`], [`triangle_edges`] and [`transpose`] are the values and operations
-//! that both sides use. No module here names a stage.
+//! Geometry sets primitives up and writes them to [`chunk`]s, tiles read the chunks that reach
+//! them ([`chunk_index`]) in order, and nothing flows back.
+//!
+//! A chunk holds [`primitives`] and [`lines`], most of them in [`packets`], and their [`bins`].
+//! [`pixel_rect`], [`sample_rect`], [`plane`], [`triangle_edges`] and [`transpose`] are the values
+//! and operations that both sides use. No module here names a stage.
 
 pub(crate) mod pixel_rect;
 
@@ -25,3 +26,5 @@ pub(crate) mod triangle_edges;
 pub(crate) mod bins;
 
 pub(crate) mod chunk;
+
+pub(crate) mod chunk_index;

@@ -10,6 +10,7 @@ use super::setup::{Setup, SetupScratch};
 use super::{filled, lines, points, polygon_mode};
 use crate::bounds::chunk::Chunk;
 use crate::pipeline::primitive_kind::PrimitiveKind;
+use crate::statistics::Statistics;
 use estampe_simd::dispatch;
 
 /// Memory of one worker.
@@ -19,6 +20,8 @@ pub(crate) struct ChunkScratch {
     gathered: Gathered,
     setup: SetupScratch,
     clip: ClipDetour,
+    /// Counts of the chunks that the worker has made since they were last taken.
+    pub(crate) statistics: Statistics,
 }
 
 /// True if the sub-draws before and after one in its chunk belong to the same run.
@@ -41,6 +44,7 @@ pub(crate) fn add_part(
         gathered,
         setup,
         clip,
+        ..
     } = scratch;
     let [from, to] = work.primitives;
     if !neighbours.joins_last {

@@ -9,18 +9,21 @@
 mod clear;
 mod fragments;
 mod in_order;
+mod jobs;
 mod next_tile;
 mod upcoming_runs;
 mod visibility;
 mod worker_tile;
 
 pub(crate) use clear::Clear;
+pub(crate) use jobs::jobs_of;
 pub(crate) use worker_tile::TileWords;
 
 use crate::attachment::resolve::ResolveJob;
-use crate::attachment::{TileBounds, TileRows};
+use crate::attachment::{RowsPlace, StoredBounds, StoredRows};
 use crate::bounds::bins::BinEntry;
-use crate::bounds::chunk::{Chunk, ChunkIndex};
+use crate::bounds::chunk::Chunk;
+use crate::bounds::chunk_index::ChunkIndex;
 use crate::bounds::pixel_rect::PixelRect;
 use crate::commands::{Discards, OcclusionQueries};
 use crate::fragment::interpolate::VaryingSource;
@@ -67,6 +70,17 @@ pub(crate) struct TilePass<'a> {
     pub(crate) discards: Discards,
     /// By colour attachment: the format, if it is resolved when the tile is drawn.
     pub(crate) resolved: [Option<TextureFormat>; MAX_TARGETS],
+    /// The images in row order that tiles are stored to.
+    pub(crate) rows: &'a [RowsPlace],
+}
+
+/// What all tiles of a pass store to when they are drawn, while they are in the cache.
+#[derive(Debug, Default)]
+pub(crate) struct TileStores<'a> {
+    /// Images in row order of colours.
+    pub(crate) rows: Vec<StoredRows<'a>>,
+    /// The bounds of depths.
+    pub(crate) bounds: Option<StoredBounds<'a>>,
 }
 
 impl TilePass<'_> {
@@ -77,7 +91,7 @@ impl TilePass<'_> {
 
     /// Returns true if no primitive reaches a tile.
     fn is_empty(&self, tile: u32) -> bool {
-        self.chunk_index.of_tile(tile).is_empty()
+        self.chunk_index.is_empty(tile)
     }
 
     fn tile_shape(&self, tile: u32) -> TileShape {
@@ -99,10 +113,6 @@ pub(crate) struct TileJob<'a> {
     pub(crate) stencil: &'a mut [[u8; LANES]],
     /// The images that colours are resolved into.
     pub(crate) resolved: [&'a mut [u32]; MAX_TARGETS],
-    /// The images in row order that colours are stored to when the tile is drawn.
-    pub(crate) rows: Vec<TileRows<'a>>,
-    /// The bounds of depths that are found when the tile is drawn.
-    pub(crate) depth_bounds: Option<TileBounds<'a>>,
     /// The tile that the worker draws next.
     pub(crate) next: NextTile<'a>,
 }
@@ -116,8 +126,6 @@ impl TileJob<'_> {
             depth: self.depth,
             stencil: self.stencil,
             resolved: self.resolved.each_mut().map(|image| &mut **image),
-            rows: std::mem::take(&mut self.rows),
-            depth_bounds: self.depth_bounds.take(),
             next,
         }
     }
@@ -143,37 +151,38 @@ pub(crate) struct TileScratch<const N: usize> {
 
 /// Draws a tile; `next` is the one that the worker draws then.
 pub(crate) fn draw<const N: usize>(
-    pass: &TilePass<'_>,
+    (pass, stores): (&TilePass<'_>, &TileStores<'_>),
     job: &mut TileJob<'_>,
     next: Option<&TileJob<'_>>,
     scratch: &mut TileScratch<N>,
 ) {
     // While nothing is drawn, nothing is prefetched.
     if pass.is_empty(job.tile) {
-        return draw_in_place(pass, job, scratch);
+        return draw_in_place((pass, stores), job, scratch);
     }
     let next = next.map(|next| NextTile::new(pass, next));
-    draw_in_place(pass, &mut job.with_next(next.unwrap_or_default()), scratch);
+    let mut job = job.with_next(next.unwrap_or_default());
+    draw_in_place((pass, stores), &mut job, scratch);
 }
 
 /// Draws a tile, in the worker's memory in place of the attachments that the pass discards.
 fn draw_in_place<const N: usize>(
-    pass: &TilePass<'_>,
+    (pass, stores): (&TilePass<'_>, &TileStores<'_>),
     job: &mut TileJob<'_>,
     scratch: &mut TileScratch<N>,
 ) {
     if pass.discards == Discards::default() {
-        return draw_into(pass, job, scratch);
+        return draw_into((pass, stores), job, scratch);
     }
     let mut tile = std::mem::take(&mut scratch.tile);
-    draw_into(pass, &mut tile.job(pass.discards, job), scratch);
+    draw_into((pass, stores), &mut tile.job(pass.discards, job), scratch);
     scratch.statistics.tiles_in_workers += 1;
     scratch.tile = tile;
 }
 
 /// Draws a tile into the attachments of its job.
 fn draw_into<const N: usize>(
-    pass: &TilePass<'_>,
+    (pass, stores): (&TilePass<'_>, &TileStores<'_>),
     job: &mut TileJob<'_>,
     scratch: &mut TileScratch<N>,
 ) {
@@ -185,14 +194,16 @@ fn draw_into<const N: usize>(
         draw_chunks(pass, job, scratch);
     }
     resolve_samples(pass, job, scratch);
-    for rows in &mut job.rows {
-        rows.store(pass.level, job.colors[rows.color].as_flattened());
+    let origin = pass.grid.tile_origin(job.tile);
+    for rows in &stores.rows {
+        let texels = job.colors[rows.place.color].as_flattened();
+        rows.store(pass.level, origin, texels);
         scratch.statistics.tiles_to_rows += 1;
     }
-    if let Some(bounds) = &mut job.depth_bounds {
+    if let Some(bounds) = &stores.bounds {
         match pass.clear.depth.filter(|_| is_empty) {
-            Some(depth) => bounds.fill(depth),
-            None => bounds.find(pass.level, job.depth.as_flattened()),
+            Some(depth) => bounds.fill(origin, depth),
+            None => bounds.find(pass.level, origin, job.depth.as_flattened()),
         }
         scratch.statistics.tiles_bounded += 1;
     }
@@ -207,7 +218,7 @@ fn draw_chunks<const N: usize>(
     begin(pass, job, scratch);
     let mut ahead = in_order::Ahead::new(pass, job.tile);
     let mut packets_ahead = visibility::Ahead::new(pass, job.tile);
-    for &number in pass.chunk_index.of_tile(job.tile) {
+    for number in pass.chunk_index.of_tile(job.tile) {
         for (sub_draw, entries) in pass.chunks[number as usize].runs_of_tile(job.tile) {
             let work = TileWork::new(pass, [number, sub_draw], job.tile);
             scratch.count(work.plan.path, entries);

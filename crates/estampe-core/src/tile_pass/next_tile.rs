@@ -5,7 +5,7 @@
 //! tile are prefetched for each step of the work on the tile at hand.
 
 use super::{TileJob, TilePass};
-use crate::attachment::TileRows;
+use crate::attachment::{RowsPlace, TileLines};
 use estampe_simd::{LANES, Lanes};
 
 /// The lines of the next tile that are not prefetched yet.
@@ -19,7 +19,7 @@ pub(crate) struct NextTile<'a> {
 impl<'a> NextTile<'a> {
     /// The tile of a job: its first colours and its depths, but for those that the pass keeps in a
     /// worker's memory.
-    pub(super) fn new(pass: &TilePass<'_>, job: &'a TileJob<'_>) -> Self {
+    pub(super) fn new(pass: &TilePass<'a>, job: &'a TileJob<'_>) -> Self {
         let discards = pass.discards;
         Self {
             color: if discards.colors & 1 == 0 {
@@ -32,7 +32,7 @@ impl<'a> NextTile<'a> {
             } else {
                 &*job.depth
             },
-            rows: RowLines::new(&job.rows),
+            rows: RowLines::new(pass.rows, pass.grid.tile_origin(job.tile)),
         }
     }
 
@@ -60,22 +60,24 @@ impl<'a> NextTile<'a> {
 /// The lines of images in row order that the tile is stored to.
 #[derive(Debug, Default)]
 struct RowLines<'a> {
-    /// What is left of a row,
-    row: &'a [u32],
-    /// the rows of the same image after it,
-    rows: &'a [&'a mut [u32]],
-    /// and the images after that.
-    images: &'a [TileRows<'a>],
+    /// Those of the image at hand, from the next row on.
+    lines: TileLines,
+    /// The next line of a row, and how many are left of it.
+    row: (usize, usize),
+    /// The images after that, and the tile's place in them.
+    images: &'a [RowsPlace],
+    origin: (u32, u32),
     /// How many lines there are.
     left: usize,
 }
 
 impl<'a> RowLines<'a> {
-    fn new(images: &'a [TileRows<'a>]) -> Self {
-        let rows = images.iter().flat_map(|image| &image.rows);
+    fn new(images: &'a [RowsPlace], origin: (u32, u32)) -> Self {
+        let lines = images.iter().map(|image| image.lines_of_tile(origin));
         Self {
             images,
-            left: rows.map(|row| row.len().div_ceil(LANES)).sum(),
+            origin,
+            left: lines.map(|lines| lines.rows * lines.of_row).sum(),
             ..Self::default()
         }
     }
@@ -86,17 +88,23 @@ impl<'a> RowLines<'a> {
         let lines = lines.min(self.left);
         self.left -= lines;
         for _ in 0..lines {
-            while self.row.is_empty() {
-                if let Some((row, others)) = self.rows.split_first() {
-                    (self.row, self.rows) = (row, others);
+            while self.row.1 == 0 {
+                if self.lines.rows > 0 {
+                    self.row = (self.lines.address, self.lines.of_row);
+                    self.lines.address += self.lines.row_bytes;
+                    self.lines.rows -= 1;
                 } else if let Some((image, others)) = self.images.split_first() {
-                    (self.rows, self.images) = (&image.rows, others);
+                    (self.lines, self.images) = (image.lines_of_tile(self.origin), others);
                 } else {
                     return;
                 }
             }
-            s.prefetch(&self.row[0]);
-            self.row = self.row.get(LANES..).unwrap_or_default();
+            let (address, left) = self.row;
+            s.prefetch_address(address);
+            self.row = (address + LINE_BYTES, left - 1);
         }
     }
 }
+
+/// Bytes of a cache line.
+const LINE_BYTES: usize = 64;

@@ -3,6 +3,7 @@
 use super::{TilePass, varyings_of};
 use crate::bounds::bins::BinEntry;
 use crate::bounds::chunk::{Chunk, RunsOfTile};
+use crate::bounds::chunk_index::ChunksOfTile;
 use crate::fragment::interpolate::VaryingSource;
 use crate::tile_path::TilePath;
 
@@ -12,7 +13,7 @@ pub(super) struct UpcomingRuns<'a> {
     pass: &'a TilePass<'a>,
     tile: u32,
     /// The numbers of the chunks after that of the last run.
-    chunks: &'a [u32],
+    chunks: ChunksOfTile<'a>,
     /// That chunk, and its runs that are left.
     of_chunk: Option<(&'a Chunk, RunsOfTile<'a>)>,
 }
@@ -67,9 +68,7 @@ impl<'a> UpcomingRuns<'a> {
                 }
                 continue;
             }
-            let (&number, rest) = self.chunks.split_first()?;
-            self.chunks = rest;
-            let chunk = &pass.chunks[number as usize];
+            let chunk = &pass.chunks[self.chunks.next()? as usize];
             self.of_chunk = Some((chunk, chunk.runs_of_tile(self.tile)));
         }
     }

@@ -13,10 +13,12 @@ pub(super) struct WorkerTile {
     colors: [Lines<u32>; MAX_TARGETS],
     depth: Lines<f32>,
     stencil: Lines<u8>,
+    /// What the pass at hand uses of it.
+    words: TileWords,
 }
 
 /// The elements of a tile of those attachments that a pass discards.
-#[derive(Debug, Default)]
+#[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct TileWords {
     colors: [usize; MAX_TARGETS],
     depth: usize,
@@ -47,18 +49,15 @@ impl TileWords {
 }
 
 impl WorkerTile {
-    /// Takes memory, whose values do not matter, where that of the pass before does not fit; `None`
-    /// if it is short.
+    /// Takes memory, whose values do not matter, where that of the passes before is too small;
+    /// `None` if it is short.
     pub(super) fn begin_pass(&mut self, words: &TileWords) -> Option<()> {
-        let colors = self.colors.iter_mut().zip(words.colors);
-        for (memory, len) in colors.filter(|(_, len)| *len > 0) {
-            resize(memory, len)?;
+        self.words = *words;
+        for (memory, len) in self.colors.iter_mut().zip(words.colors) {
+            grow(memory, len)?;
         }
-        if words.depth + words.stencil > 0 {
-            resize(&mut self.depth, words.depth)?;
-            resize(&mut self.stencil, words.stencil)?;
-        }
-        Some(())
+        grow(&mut self.depth, words.depth)?;
+        grow(&mut self.stencil, words.stencil)
     }
 
     /// A tile's job with this memory in place of the attachments that the pass discards.
@@ -68,22 +67,23 @@ impl WorkerTile {
         job: &mut TileJob<'b>,
     ) -> TileJob<'a> {
         let mut job: TileJob<'a> = std::mem::take(job);
+        let words = self.words;
         for (index, (memory, image)) in self.colors.iter_mut().zip(&mut job.colors).enumerate() {
             if discards.colors >> index & 1 == 1 {
-                *image = memory.as_chunks_mut().0;
+                *image = memory[..words.colors[index]].as_chunks_mut().0;
             }
         }
         if discards.depth_stencil {
-            job.depth = self.depth.as_chunks_mut().0;
-            job.stencil = self.stencil.as_chunks_mut().0;
+            job.depth = self.depth[..words.depth].as_chunks_mut().0;
+            job.stencil = self.stencil[..words.stencil].as_chunks_mut().0;
         }
         job
     }
 }
 
-/// Makes memory for so many elements, whose values do not matter.
-fn resize<T: Copy + Default>(memory: &mut Lines<T>, len: usize) -> Option<()> {
-    if memory.len() != len {
+/// Makes memory for at least so many elements, whose values do not matter.
+fn grow<T: Copy + Default>(memory: &mut Lines<T>, len: usize) -> Option<()> {
+    if memory.len() < len {
         *memory = Lines::zeros(len)?;
     }
     Some(())

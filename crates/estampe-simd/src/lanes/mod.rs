@@ -40,6 +40,11 @@ pub trait Lanes: Simd {
     #[inline(always)]
     fn prefetch<T>(self, _value: &T) {}
 
+    /// [`prefetch`](Self::prefetch) of the cache line at an address, for memory that others may
+    /// write to meanwhile. An address of no memory does no harm.
+    #[inline(always)]
+    fn prefetch_address(self, _address: usize) {}
+
     /// [`prefetch`](Self::prefetch) of an element of the table for each lane. An index beyond the
     /// end does no harm.
     #[inline(always)]

@@ -22,6 +22,10 @@ impl Lanes for Sse2 {
         crate::prefetch::sse2(self, value);
     }
     #[inline(always)]
+    fn prefetch_address(self, address: usize) {
+        crate::prefetch::address_sse2(self, address);
+    }
+    #[inline(always)]
     fn prefetch_elements(self, table: &[u32], index: u32x16<Self>) {
         crate::prefetch::elements_sse2(self, table, index);
     }
@@ -75,6 +79,10 @@ impl Lanes for Avx2 {
     #[inline(always)]
     fn prefetch<T>(self, value: &T) {
         crate::prefetch::avx2(self, value);
+    }
+    #[inline(always)]
+    fn prefetch_address(self, address: usize) {
+        crate::prefetch::address_avx2(self, address);
     }
     #[inline(always)]
     fn prefetch_elements(self, table: &[u32], index: u32x16<Self>) {
@@ -164,6 +172,10 @@ impl Lanes for Avx512 {
     #[inline(always)]
     fn prefetch<T>(self, value: &T) {
         crate::prefetch::avx512(self, value);
+    }
+    #[inline(always)]
+    fn prefetch_address(self, address: usize) {
+        crate::prefetch::address_avx512(self, address);
     }
     #[inline(always)]
     fn prefetch_elements(self, table: &[u32], index: u32x16<Self>) {
