@@ -222,8 +222,8 @@ impl Code {
         }
     }
 
-    /// Runs packets one by one or two by two. Gives how to do it again, if one call ran all of them;
-    /// `again_pointers` then are what it found.
+    /// Runs packets one by one or two by two. Gives how to do it again, if one call ran all of
+    /// them; `again_pointers` then are what it found.
     fn run_packets(
         &self,
         run: &Run<'_>,

@@ -13,8 +13,8 @@
 //! 5. [`dead_code`]: operations, results and parameters that nothing uses.
 //! 6. [`unused_inputs`]: inputs that nothing reads.
 //!
-//! [`contract`], which does change results, is for those who ask for it; [`access_packed`] for those
-//! who bind textures of one kind.
+//! [`contract`], which does change results, is for those who ask for it, and [`access_packed`] for
+//! those who bind textures of one kind.
 
 mod contract;
 mod dead;
