@@ -18,7 +18,7 @@ use crate::plan::tile_plan::{TargetFacts, TilePlan, TileState};
 use crate::profile::JobTimings;
 use crate::raster::MAX_SAMPLES;
 use crate::recycle::recycled;
-use crate::schedule::{Executor, ThreadError, ThreadPool};
+use crate::schedule::{Awake, Executor, ThreadError, ThreadPool};
 use crate::statistics::Statistics;
 use crate::tile_pass::{self, Clear, MAX_TARGETS, TileJob, TilePass, TileScratch, TileWords};
 use estampe_simd::Level;
@@ -146,6 +146,14 @@ impl Context {
     #[must_use]
     pub fn threads(&self) -> usize {
         self.executor.threads()
+    }
+
+    /// Wakes the threads that draw, and keeps them awake while the value lives: for work of several
+    /// steps, before it is prepared. Does nothing where they have other work, or too few
+    /// processors.
+    #[must_use]
+    pub fn awake(&self) -> Awake {
+        self.executor.awake()
     }
 
     /// Runs `work` for every item, on the threads that draw.

@@ -77,6 +77,6 @@ pub use pipeline::{
 };
 pub use plan::pass_check::RenderPassError;
 pub use recycle::recycled;
-pub use schedule::{ThreadError, ThreadPool, ThreadPoolBuilder};
+pub use schedule::{Awake, ThreadError, ThreadPool, ThreadPoolBuilder};
 pub use statistics::Statistics;
 pub use tile_path::{PathCounts, TilePath};

@@ -153,6 +153,7 @@ pub(crate) fn submit(device: &Device, commands: &[Command<'_>]) -> Result<Statis
     for (number, command) in commands.iter().enumerate() {
         command.check(device).map_err(at(number))?;
     }
+    let _awake = (commands.len() > 1).then(|| device.context().awake());
     let mut statistics = Statistics::default();
     for (number, command) in commands.iter().enumerate() {
         statistics += command.run(device).map_err(at(number))?;

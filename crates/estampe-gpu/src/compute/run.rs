@@ -33,6 +33,7 @@ fn run(device: &Device, dispatch: &Dispatch<'_>) -> Result<(), DispatchErrorKind
             count
         }
     };
+    let _awake = (count != [1; 3]).then(|| device.context().awake());
     let groups = distinct(dispatch.bind_groups);
     let reserved: Vec<_> = textures(&groups).iter().map(|one| one.reserve()).collect();
     let mut textures = StoredTextures::in_place();

@@ -129,6 +129,7 @@ pub(crate) fn core_pass<'a>(
 }
 
 fn run(device: &Device, pass: &RenderPass<'_>) -> Result<Statistics, PassErrorKind> {
+    let _awake = has_tiles_for_several(pass).then(|| device.context().awake());
     let (context, limits) = (device.context(), device.limits());
     let layers = Layer::of(pass)?;
     let of_layers = passes(pass, &layers);
@@ -190,6 +191,19 @@ fn run(device: &Device, pass: &RenderPass<'_>) -> Result<Statistics, PassErrorKi
         }),
         None => Ok(drawn),
     }
+}
+
+/// Returns true if a pass draws more than one tile of the core: one is drawn by one thread.
+fn has_tiles_for_several(pass: &RenderPass<'_>) -> bool {
+    const TILE_SIDE: u32 = 64;
+    let colors = pass.color_attachments.iter().flatten();
+    let depth = pass.depth_stencil_attachment.as_ref();
+    let views = colors.map(|color| &color.view);
+    let view = views.chain(depth.map(|depth| &depth.view)).next();
+    view.is_some_and(|view| {
+        let [width, height] = view.size();
+        width.max(height) > TILE_SIDE
+    })
 }
 
 /// The programs of a draw that may be stopped.

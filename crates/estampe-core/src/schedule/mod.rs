@@ -6,18 +6,24 @@
 //! and another after the last, while the caller sleeps.) Workers take items from the front of what
 //! is left, many at first and one by one in the end, so that they finish together.
 
+mod awake;
+
 use crate::profile::{JobTimings, Profiler};
+use awake::Watch;
 use rayon::Scope;
 use std::ops::Range;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
+pub use awake::Awake;
 pub use rayon::{ThreadPool, ThreadPoolBuilder};
 
 /// Runs independent items on the calling thread and its helpers.
 #[derive(Debug)]
 pub(crate) struct Executor {
     helpers: Option<Arc<ThreadPool>>,
+    /// Keeps them awake during a pass, if each has a processor and no other work.
+    watch: Option<Arc<Watch>>,
     /// Measures each item, if the context is made for profiling.
     profiler: Option<Profiler>,
     /// The number of threads for which work is divided, the caller included.
@@ -53,7 +59,10 @@ impl Executor {
             threads,
             reason: error.to_string(),
         })?;
-        Ok(Self::on_pool(Arc::new(pool)))
+        Ok(Self {
+            watch: (threads <= available()).then(Arc::default),
+            ..Self::on_pool(Arc::new(pool))
+        })
     }
 
     /// An executor of the caller and the threads of a pool.
@@ -61,6 +70,7 @@ impl Executor {
         Self {
             threads: 1 + pool.current_num_threads(),
             helpers: Some(pool),
+            watch: None,
             profiler: None,
         }
     }
@@ -69,6 +79,7 @@ impl Executor {
     pub(crate) fn alone() -> Self {
         Self {
             helpers: None,
+            watch: None,
             profiler: None,
             threads: 1,
         }
@@ -79,8 +90,17 @@ impl Executor {
     pub(crate) fn profiling(threads: usize) -> Self {
         Self {
             helpers: None,
+            watch: None,
             profiler: Some(Profiler::default()),
             threads: threads.max(1),
+        }
+    }
+
+    /// Keeps the helpers awake while the value lives.
+    pub(crate) fn awake(&self) -> Awake {
+        match (&self.helpers, &self.watch) {
+            (Some(pool), Some(watch)) => Awake::new(pool, watch),
+            _ => Awake::NOBODY,
         }
     }
 
@@ -155,10 +175,17 @@ impl Executor {
         };
         let left = Mutex::new(items);
         let running = AtomicUsize::new(workers);
+        let watch = self.watch.as_ref();
         let run = |worker: usize| {
             work(worker, &mut || take_some(&left, workers));
             running.fetch_sub(1, Ordering::Release);
+            if let Some(watch) = watch.filter(|_| worker > 0) {
+                Watch::wait_for_more(watch);
+            }
         };
+        if let Some(watch) = watch {
+            watch.begin_jobs();
+        }
         pool.in_place_scope(|scope| {
             call_helpers(scope, 1..workers, &run);
             run(0);
@@ -196,16 +223,21 @@ fn wait_a_little(running: &AtomicUsize) {
         if running.load(Ordering::Acquire) == 0 {
             break;
         }
-        (0..PAUSES).for_each(|_| std::hint::spin_loop());
+        pause();
     }
     // The time that rayon takes to observe that a helper is done.
-    (0..PAUSES).for_each(|_| std::hint::spin_loop());
+    pause();
 }
 
 /// The number of times that a finished worker checks for the others, and the number of pauses
 /// between: 50 µs in all.
 const ROUNDS: usize = 128;
 const PAUSES: usize = 16;
+
+/// Some pauses.
+fn pause() {
+    (0..PAUSES).for_each(|_| std::hint::spin_loop());
+}
 
 /// Takes items off the front of what is left.
 fn take_some<'i, T>(left: &Mutex<&'i mut [T]>, workers: usize) -> Option<&'i mut [T]> {
