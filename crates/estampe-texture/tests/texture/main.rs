@@ -14,6 +14,7 @@ mod gradients;
 mod naive;
 mod requests;
 mod several;
+mod squares;
 mod unorm8;
 mod values;
 

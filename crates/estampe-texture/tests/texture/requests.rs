@@ -9,15 +9,15 @@ use estampe_texture::{
     compare_packets, shifted,
 };
 
-type Colors = [Packet<f32>; 4];
+pub(super) type Colors = [Packet<f32>; 4];
 
-fn bits(colors: &[Packet<f32>]) -> Vec<[u32; LANES]> {
+pub(super) fn bits(colors: &[Packet<f32>]) -> Vec<[u32; LANES]> {
     let bits = colors.iter().map(|packet| packet.0.map(f32::to_bits));
     bits.collect()
 }
 
 /// Coordinates of neighbouring pixels from a place on.
-fn packets([u, v]: [f32; 2], step: f32) -> [Packet<f32>; 2] {
+pub(super) fn packets([u, v]: [f32; 2], step: f32) -> [Packet<f32>; 2] {
     let axis = |lanes: [u8; LANES], from: f32| Packet(lanes.map(|at| from + f32::from(at) * step));
     [axis(LANE_X, u), axis(LANE_Y, v)]
 }
@@ -124,7 +124,7 @@ fn comparisons_with_one_depth_are_those_alone() {
 
 /// A texture of random texels, two layers of 64×32 with three mip levels; of half floats those
 /// below 2. The view is its second layer.
-fn textured(format: TextureFormat, sampler: SamplerDescriptor) -> SampledTexture {
+pub(super) fn textured(format: TextureFormat, sampler: SamplerDescriptor) -> SampledTexture {
     let descriptor = TexelDescriptor {
         dimension: TextureDimension::D2,
         width: 64,
@@ -292,7 +292,7 @@ fn scalars_at(at: [f32; 2], scale: f32) -> [Packet<f32>; 3] {
     [v, Packet([7.0; LANES]), u]
 }
 
-fn places_of(packets: &[[Packet<f32>; 3]]) -> PacketPlaces<'_> {
+pub(super) fn places_of(packets: &[[Packet<f32>; 3]]) -> PacketPlaces<'_> {
     PacketPlaces {
         scalars: packets.as_flattened(),
         stride: 3,
@@ -302,7 +302,7 @@ fn places_of(packets: &[[Packet<f32>; 3]]) -> PacketPlaces<'_> {
 }
 
 /// Samples each tap of each packet by itself.
-fn each_tap(
+pub(super) fn each_tap(
     texture: &SampledTexture,
     packets: &[[Packet<f32>; 3]],
     shifts: &[[f32; 2]],

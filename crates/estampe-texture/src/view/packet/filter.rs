@@ -5,13 +5,15 @@
 //! for each shift of u and of v: for the 13 taps of a downsampling filter five times. A row of
 //! texels is loaded and filtered along x once for all taps of the same columns.
 //!
-//! Columns and rows of some packets are found before any is filtered: the steps that lead to them
-//! take long, and no packet waits for another. The arithmetic of each tap is that of `block.rs`, in
+//! Sixteen packets that are a square share more: see `square.rs`. Of other packets columns and rows
+//! of some are found before any is filtered: the steps that lead to them take long, and no packet
+//! waits for another. The arithmetic of each tap is that of `block.rs`, in
 //! the same order, so the bits are the same.
 
 use super::ahead::Ahead;
 use super::block::{BlockLevel, Footprint, Spot, columns_and_rows};
 use super::shifts::TapShifts;
+use super::square::{PACKETS, SquarePlaces};
 use super::taps::{Lines, MOST_LINES, MOST_TAPS, all_of};
 use crate::PacketPlaces;
 use crate::view::SampledTexture;
@@ -29,6 +31,7 @@ thread_local! {
         RefCell::new(Places {
             spots: [[Values([0.0; LANES]); 2]; MOST_SPOTS],
             found: [Found::NONE; MOST_TAPS],
+            square: SquarePlaces::NONE,
         })
     };
 }
@@ -38,7 +41,10 @@ struct Places {
     spots: [Spot; MOST_SPOTS],
     /// By packet.
     found: [Found; MOST_TAPS],
+    square: SquarePlaces,
 }
+
+const _: () = assert!(PACKETS == MOST_TAPS, "a square is a batch");
 
 /// The taps of each of several packets, at most [`MOST_TAPS`], that were not sampled: bit `i` is
 /// tap `i`.
@@ -60,6 +66,24 @@ impl SampledTexture {
             count * shifts.of_taps().len() - others.sum::<usize>()
         };
         places.chunks(MOST_TAPS).map(others).sum()
+    }
+
+    /// True if sixteen packets of [`sample_shifted`](Self::sample_shifted) are filtered as a square;
+    /// tests see by it which way they take.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn filters_a_square(&self, places: &PacketPlaces<'_>, shifts: &TapShifts) -> bool {
+        let mut colors = vec![Answers::default(); PACKETS * shifts.of_taps().len()];
+        let mut square = SquarePlaces::NONE;
+        dispatch!(@specialized_move self.level, s => {
+            let Some(level) = BlockLevel::new(s, self, &self.view.planes[0]) else {
+                return false;
+            };
+            let (of, mut ahead) = ((places, shifts), Ahead::default());
+            let others =
+                level.filter_square::<false>(s, of, &mut square, &mut ahead, &mut colors);
+            places.each().count() == PACKETS && others.is_some()
+        }, others => false)
     }
 
     /// Samples the finest level, which [may have blocks](Self::may_have_blocks), at shifts from a
@@ -98,17 +122,25 @@ impl SampledTexture {
         colors: &mut [Answers],
     ) -> OtherTaps {
         let mut others = OtherTaps::default();
-        let Places { spots, found } = memory;
+        let Places {
+            spots,
+            found,
+            square,
+        } = memory;
+        let taps = shifts.of_taps().len();
+        let mut ahead = Ahead::default();
+        if let Some(uv) = places.each().next()
+            && colors.len() == taps * PACKETS
+        {
+            let plane = &self.view.planes[0];
+            ahead = Ahead::new(level.rows(), plane, uv, shifts);
+            let of = (places, shifts);
+            if let Some(others) = level.filter_square::<CLAMPS>(s, of, square, &mut ahead, colors) {
+                return others;
+            }
+        }
         let mut lines = [level.lengths; MOST_LINES + 1];
         let mut coordinates = places.each();
-        let taps = shifts.of_taps().len();
-        let mut ahead = match places.each().next() {
-            Some(uv) if colors.len() == taps * MOST_TAPS => {
-                let plane = &self.view.planes[0];
-                Ahead::new(level.rows(), plane, uv, shifts)
-            }
-            _ => Ahead::default(),
-        };
         let mut packets = colors.chunks_exact_mut(taps).zip(&mut others);
         loop {
             let mut count = 0;
@@ -133,21 +165,21 @@ impl SampledTexture {
 
 /// The lanes of a packet's columns and rows whose texels have neighbours.
 #[derive(Clone, Copy)]
-struct Found {
+pub(super) struct Found {
     /// True if all texels have a neighbour in the level.
-    is_inside: bool,
+    pub(super) is_inside: bool,
     /// For each shift the lanes whose texels have.
-    has_next: [u16; MOST_TAPS],
+    pub(super) has_next: [u16; MOST_TAPS],
     /// For each shift the lanes whose texels are neighbours of each other.
-    neighbours: [u16; MOST_TAPS],
+    pub(super) neighbours: [u16; MOST_TAPS],
 }
 
 /// The lanes of columns and of rows.
-const COLUMNS: u16 = 0xF;
-const ROWS: u16 = 0xF0;
+pub(super) const COLUMNS: u16 = 0xF;
+pub(super) const ROWS: u16 = 0xF0;
 
 impl Found {
-    const NONE: Self = Self {
+    pub(super) const NONE: Self = Self {
         is_inside: false,
         has_next: [0; MOST_TAPS],
         neighbours: [0; MOST_TAPS],
@@ -178,17 +210,29 @@ impl<S: SimdLanes> BlockLevel<'_, S> {
         (spots, found): (&mut [Spot], &mut Found),
     ) {
         let (both, stands) = columns_and_rows(s, uv);
-        let stands = s.bits_of_mask(stands) == u16::MAX;
-        let mut inside = if stands { u16::MAX } else { 0 };
+        self.find_shifts::<CLAMPS>(s, both, shifts, (spots, found));
+        if s.bits_of_mask(stands) != u16::MAX {
+            found.is_inside = false;
+            found.has_next = [0; MOST_TAPS];
+        }
+    }
+
+    /// Finds columns and rows at all shifts from those whose coordinates are given.
+    #[inline(always)]
+    pub(super) fn find_shifts<const CLAMPS: bool>(
+        &self,
+        s: S,
+        both: f32x16<S>,
+        shifts: &TapShifts,
+        (spots, found): (&mut [Spot], &mut Found),
+    ) {
+        let mut inside = u16::MAX;
         let at_shifts = spots.iter_mut().zip(&shifts.spots);
         let of_shifts = found.has_next.iter_mut().zip(&mut found.neighbours);
         for ((spot, shift), (has_next, neighbours)) in at_shifts.zip(of_shifts) {
             let shifted = both + f32x16::load_array_ref(s, &shift.0);
             [*has_next, *neighbours] = self.place::<CLAMPS>(s, shifted, spot);
             inside &= *has_next;
-        }
-        if !stands {
-            found.has_next = [0; MOST_TAPS];
         }
         found.is_inside = inside == u16::MAX;
     }
@@ -255,7 +299,7 @@ impl<S: SimdLanes> BlockLevel<'_, S> {
         if CLAMPS && shifts.is_finite && found.is_inside {
             for row in shifts.ends[column % MOST_TAPS] {
                 if let Some(rows) = spots.get(usize::from(row)) {
-                    of.add::<CLAMPS>(Footprint { columns, rows });
+                    of.add(Footprint { columns, rows });
                 }
             }
         } else {
@@ -266,7 +310,7 @@ impl<S: SimdLanes> BlockLevel<'_, S> {
                 let (Some(rows), true) = (spots.get(row), found.is_inside(row)) else {
                     return false;
                 };
-                of.add::<CLAMPS>(Footprint { columns, rows });
+                of.add(Footprint { columns, rows });
             }
         }
         let are_neighbours = found.neighbours[column % MOST_TAPS] & COLUMNS == COLUMNS;

@@ -22,6 +22,7 @@ mod footprint;
 mod inside;
 mod places;
 mod shifts;
+mod square;
 mod taps;
 
 pub(crate) use super::packet_texel::PacketFormat;

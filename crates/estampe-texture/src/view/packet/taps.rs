@@ -117,7 +117,7 @@ impl<S: SimdLanes> BlockLevel<'_, S> {
             first_lanes.0[at] = uv[0].0[0].to_bits();
         }
         let found = (&spots, &first_lanes, blocks);
-        let sharing = self.sample_sharing::<CLAMPS>(s, places, found, colors);
+        let sharing = self.sample_sharing(s, places, found, colors);
         let mut left = blocks & !sharing;
         while left != 0 {
             let at = left.trailing_zeros() as usize;
@@ -142,7 +142,7 @@ impl<S: SimdLanes> BlockLevel<'_, S> {
     /// Samples taps whose u is that of other taps, which most differ in the first lane already;
     /// returns which were sampled. The spots of blocks have been found.
     #[inline(always)]
-    fn sample_sharing<const CLAMPS: bool>(
+    fn sample_sharing(
         &self,
         s: S,
         places: &PacketPlaces<'_>,
@@ -167,7 +167,7 @@ impl<S: SimdLanes> BlockLevel<'_, S> {
             // Rows of texels, filtered along x, of one group after the other.
             let mut lines = [self.lengths; MOST_LINES + 1];
             for &taps in groups.iter().take(count) {
-                if self.sample_group::<CLAMPS>(s, places, (spots, taps), colors, &mut lines) {
+                if self.sample_group(s, places, (spots, taps), colors, &mut lines) {
                     sharing |= taps;
                 }
             }
@@ -178,7 +178,7 @@ impl<S: SimdLanes> BlockLevel<'_, S> {
     /// Samples taps whose u is the same. False if it is not, or texels are far apart or not in
     /// memory.
     #[inline(always)]
-    fn sample_group<const CLAMPS: bool>(
+    fn sample_group(
         &self,
         s: S,
         places: &PacketPlaces<'_>,
@@ -202,7 +202,7 @@ impl<S: SimdLanes> BlockLevel<'_, S> {
             };
             let of_tap: u32x16<S> = f32x16::load_array_ref(s, &u.0).bitcast();
             different |= of_tap ^ bits;
-            lines_of.add::<CLAMPS>(Footprint::of(&spots[at]));
+            lines_of.add(Footprint::of(&spots[at]));
         }
         let is_same: mask32x16<S> = different.simd_eq(u32x16::splat(s, 0));
         let columns = Footprint::of(&spots[first]);
@@ -228,15 +228,15 @@ impl<S: SimdLanes> BlockLevel<'_, S> {
     /// Filters rows of texels along x for taps of the same columns. False if the rows are too many,
     /// or texels far apart or not in memory.
     #[inline(always)]
-    pub(super) fn filter_lines(
+    pub(super) fn filter_lines<const ROOM: usize>(
         &self,
         s: S,
         columns: (Footprint<'_>, bool),
         of: &Lines,
-        lines: &mut [f32x16<S>; MOST_LINES + 1],
+        lines: &mut [f32x16<S>; ROOM],
     ) -> bool {
         let last = of.bottom.wrapping_sub(of.top).cast_unsigned() as usize + 1;
-        last < MOST_LINES
+        last < ROOM - 1
             && self
                 .lines(s, columns, of.top, &mut lines[..=last])
                 .is_some()
@@ -257,34 +257,39 @@ impl Lines {
         bottom: 0,
     };
 
-    /// Adds those of a tap.
+    /// Adds those of a tap. Any of its rows may be the first or the last: a texture may be mirrored,
+    /// and a packet may show several triangles.
     #[inline(always)]
-    pub(super) fn add<const CLAMPS: bool>(&mut self, tap: Footprint<'_>) {
+    pub(super) fn add(&mut self, tap: Footprint<'_>) {
         let mut row = 0;
         while row < 4 {
-            // In a mirrored texture, any row may be the first or the last.
-            if !CLAMPS || row == 0 || row == 3 {
-                self.top = self.top.min(tap.row(row));
-                self.bottom = self.bottom.max(tap.row(row));
-            }
+            self.add_rows([tap.row(row); 2]);
             row += 1;
         }
     }
 
-    /// The channels of a tap whose rows are between these, which are filtered along x.
+    /// Adds those between the rows after a first and a last one.
     #[inline(always)]
-    pub(super) fn between<S: SimdLanes>(
+    pub(super) fn add_rows(&mut self, [first, last]: [i32; 2]) {
+        self.top = self.top.min(first);
+        self.bottom = self.bottom.max(last);
+    }
+
+    /// The channels of a tap whose rows are between these, which are filtered along x. The number of
+    /// lines is a power of two and one.
+    #[inline(always)]
+    pub(super) fn between<S: SimdLanes, const ROOM: usize>(
         &self,
         s: S,
         tap: Footprint<'_>,
-        lines: &[f32x16<S>; MOST_LINES + 1],
+        lines: &[f32x16<S>; ROOM],
     ) -> [f32x16<S>; 4] {
         let mut filtered = [lines[0]; 4];
         let mut row = 0;
         while row < 4 {
             let line = tap.row(row).wrapping_sub(self.top).cast_unsigned() as usize;
             // Below the number of lines already: without a test.
-            let line = line % MOST_LINES;
+            let line = line % (ROOM - 1);
             let (upper, lower) = (lines[line], lines[line + 1]);
             filtered[row] = upper + (lower - upper) * tap.down(s, row);
             row += 1;
