@@ -19,6 +19,7 @@ mod read_place;
 mod samples;
 mod stage;
 mod taps;
+mod texel_accesses;
 mod textures;
 mod uniforms;
 mod workspaces;
