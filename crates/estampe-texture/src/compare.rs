@@ -88,7 +88,7 @@ pub fn compare_packets(
 }
 
 /// A depth image as lane code reads it.
-struct Map<'a> {
+pub(crate) struct Map<'a> {
     depths: &'a [u32],
     windows: &'a [u32],
     width: i32,
@@ -99,7 +99,7 @@ struct Map<'a> {
 
 impl<'a> Map<'a> {
     #[inline(always)]
-    fn new(texture: &'a ShadowMap) -> Self {
+    pub(crate) fn new(texture: &'a ShadowMap) -> Self {
         let side = |texels: u32| texels.clamp(1, ShadowMap::MAX_SIDE).cast_signed();
         let (width, height) = (side(texture.width()), side(texture.height()));
         Self {
@@ -130,9 +130,9 @@ impl<'a> Map<'a> {
             }
         }
         if let Some(offsets) = square_of_three(offsets)
-            && let Some(sum) = self.sum_of_square(uv, offsets, reference)
+            && let Some(square) = self.square(uv, offsets)
         {
-            return sum;
+            return self.sum_of_square(&square, reference);
         }
         let mut sum = uv.x.splat(0.0);
         for &[x, y] in offsets {
@@ -180,7 +180,11 @@ impl<'a> Map<'a> {
     /// The lit lanes, if the bounds decide every lane: all texels of samples between two corners
     /// pass, or all fail.
     #[inline(always)]
-    fn decided<R: Real>(&self, [low, high]: [Vec2<R>; 2], reference: R) -> Option<R::SelectMask> {
+    pub(crate) fn decided<R: Real>(
+        &self,
+        [low, high]: [Vec2<R>; 2],
+        reference: R,
+    ) -> Option<R::SelectMask> {
         let (x0, y0) = (
             axis(low.x, self.width).texel,
             axis(low.y, self.height).texel,
@@ -206,17 +210,29 @@ impl<'a> Map<'a> {
         Some(lit)
     }
 
-    /// The sum of 3×3 samples at (u, v) + (x of a column, y of a row), row by row. `None` unless
+    /// The sum of 3×3 samples, row by row.
+    #[inline(always)]
+    fn sum_of_square<R: Real>(&self, square: &Square<R>, reference: R) -> R {
+        let [y0, y1, y2] = square.down;
+        let first = self.row_of_three(square, 0, reference);
+        let second = self.row_of_three(square, 1, reference);
+        let sum = add_row(reference.splat(0.0), first, second, y0);
+        let third = self.row_of_three(square, 2, reference);
+        let sum = add_row(sum, second, third, y1);
+        let fourth = self.row_of_three(square, 3, reference);
+        add_row(sum, third, fourth, y2)
+    }
+
+    /// Finds the texels of 3×3 samples at (u, v) + (x of a column, y of a row). `None` unless
     /// neighbouring samples share texels in every lane: the right texel of a sample is the left
     /// texel of the next one, and its lower texel is the upper texel of the sample below. Each
     /// texel is then compared once; the arithmetic after that is the same.
     #[inline(always)]
-    fn sum_of_square<R: Real>(
+    pub(crate) fn square<R: Real>(
         &self,
         uv: Vec2<R>,
         [columns, rows]: [[f32; 3]; 2],
-        reference: R,
-    ) -> Option<R> {
+    ) -> Option<Square<R>> {
         let [x0, x1, x2] = [
             axis(uv.x + columns[0], self.width),
             axis(uv.x + columns[1], self.width),
@@ -234,47 +250,42 @@ impl<'a> Map<'a> {
         if R::any(!(next_x & next_y)) {
             return None;
         }
-        let columns = [
-            column(x0.texel),
-            column(x1.texel),
-            column(x2.texel),
-            column((x2.texel + one).min(last_x)),
-        ];
-        let fractions = [x0.fraction, x1.fraction, x2.fraction];
-        let row = [y0.texel, y1.texel, y2.texel, (y2.texel + one).min(last_y)];
-        let first = self.row_of_three(columns, row[0], fractions, reference);
-        let second = self.row_of_three(columns, row[1], fractions, reference);
-        let sum = add_row(uv.x.splat(0.0), first, second, y0.fraction);
-        let third = self.row_of_three(columns, row[2], fractions, reference);
-        let sum = add_row(sum, second, third, y1.fraction);
-        let fourth = self.row_of_three(columns, row[3], fractions, reference);
-        Some(add_row(sum, third, fourth, y2.fraction))
+        Some(Square {
+            columns: [
+                column(x0.texel),
+                column(x1.texel),
+                column(x2.texel),
+                column((x2.texel + one).min(last_x)),
+            ],
+            rows: [y0.texel, y1.texel, y2.texel, (y2.texel + one).min(last_y)],
+            across: [x0.fraction, x1.fraction, x2.fraction],
+            down: [y0.fraction, y1.fraction, y2.fraction],
+        })
     }
 
     /// The comparison results of four texels of a row, filtered horizontally to three values.
     #[inline(always)]
-    fn row_of_three<R: Real>(
+    pub(crate) fn row_of_three<R: Real>(
         &self,
-        columns: [R::Int; 4],
-        y: R::Int,
-        fractions: [R; 3],
+        square: &Square<R>,
+        row: usize,
         reference: R,
     ) -> [R; 3] {
-        let row = self.row(y);
-        let a = self.passes(columns[0] + row, reference);
-        let b = self.passes(columns[1] + row, reference);
-        let c = self.passes(columns[2] + row, reference);
-        let d = self.passes(columns[3] + row, reference);
+        let row = self.row(square.rows[row]);
+        let a = self.passes(square.columns[0] + row, reference);
+        let b = self.passes(square.columns[1] + row, reference);
+        let c = self.passes(square.columns[2] + row, reference);
+        let d = self.passes(square.columns[3] + row, reference);
         [
-            mix(a, b, fractions[0]),
-            mix(b, c, fractions[1]),
-            mix(c, d, fractions[2]),
+            mix(a, b, square.across[0]),
+            mix(b, c, square.across[1]),
+            mix(c, d, square.across[2]),
         ]
     }
 
     /// One sample: four comparisons, filtered linearly.
     #[inline(always)]
-    fn sample<R: Real>(&self, uv: Vec2<R>, reference: R) -> R {
+    pub(crate) fn sample<R: Real>(&self, uv: Vec2<R>, reference: R) -> R {
         let (x, y) = (axis(uv.x, self.width), axis(uv.y, self.height));
         let one = x.texel.splat(1);
         let right = (x.texel + one).min(one.splat(self.width - 1));
@@ -313,9 +324,21 @@ impl<'a> Map<'a> {
     }
 }
 
+/// The texels of 3×3 samples that share them.
+pub(crate) struct Square<R: Real> {
+    /// The part of a texel's index that each column of texels determines.
+    columns: [R::Int; 4],
+    /// The rows of texels.
+    rows: [R::Int; 4],
+    /// The weight of the right texel of each column of samples.
+    across: [R; 3],
+    /// The weight of the lower texel of each row of samples.
+    pub(crate) down: [R; 3],
+}
+
 /// The x of columns and the y of rows, if the offsets are three rows of three.
 #[inline(always)]
-fn square_of_three(offsets: &[[f32; 2]]) -> Option<[[f32; 3]; 2]> {
+pub(crate) fn square_of_three(offsets: &[[f32; 2]]) -> Option<[[f32; 3]; 2]> {
     let [a, b, c, d, _, _, g, _, _] = *<&[[f32; 2]; 9]>::try_from(offsets).ok()?;
     let square = [[a[0], b[0], c[0]], [a[1], d[1], g[1]]];
     let is_square = offsets.iter().enumerate().all(|(index, offset)| {

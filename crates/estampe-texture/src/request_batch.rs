@@ -58,7 +58,7 @@ impl<'a> PacketPlaces<'a> {
 
     /// The scalars of each packet.
     #[inline(always)]
-    fn packets(&self) -> std::slice::ChunksExact<'a, Packet<f32>> {
+    pub(crate) fn packets(&self) -> std::slice::ChunksExact<'a, Packet<f32>> {
         self.scalars.chunks_exact(self.stride.max(1))
     }
 

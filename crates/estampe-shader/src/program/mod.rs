@@ -6,15 +6,18 @@
 
 mod batch;
 mod buffers;
+mod comparisons;
 mod compute;
 mod ends;
 mod facts;
+mod groups;
 mod layouts;
 mod link;
 mod machine;
 mod nondependent;
 mod packed;
 mod pixel_loads;
+mod read_inputs;
 mod read_place;
 mod samples;
 mod stage;

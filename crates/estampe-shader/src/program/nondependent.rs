@@ -8,24 +8,26 @@
 //! read where the pipeline put them, texels are inputs of the shader like others, and no register
 //! is saved around a call. Of the samples in the shader's code each packet's is a call.
 //!
-//! So are samples at uniform shifts from varyings, which are [filters](super::taps), and
-//! [loads at the pixel itself](super::pixel_loads).
+//! So are samples at uniform shifts from varyings, which are [filters](super::taps),
+//! [loads at the pixel itself](super::pixel_loads), and [comparisons](super::comparisons).
 //!
 //! Only samples in the outermost body are taken, which every invocation makes. They are numbered by
-//! groups: those of a group are at the same place, or are the taps of one filter; the loads are the
-//! last group.
+//! spans: those of a span are at the same place, or are the taps of one filter; the loads are one
+//! span.
 
 use super::batch::Widths;
+use super::comparisons::{self, ShadowFilter};
+use super::groups::Group;
 use super::pixel_loads;
-use super::read_place::{MOST, Place, Read, found};
+use super::read_inputs::with_inputs;
+use super::read_place::{MOST, Read, found};
 use super::taps::{Filter, Shift};
-use super::textures::BoundTextures;
 use super::uniforms::{Finder, Sources, Uniforms};
-use estampe_ir::interface::{Input, Interface, Output};
+use estampe_ir::interface::{Input, Output};
 use estampe_ir::tree::{Node, Tree, passes};
 use estampe_ir::{Op, Value};
 use estampe_simd::{Level, Packet};
-use estampe_texture::{PacketLod, PacketRequest, SampledTexture, TapShifts};
+use estampe_texture::TapShifts;
 use std::cell::Cell;
 use std::collections::HashMap;
 
@@ -69,21 +71,22 @@ pub(super) struct Reads {
     /// After the filters: the positions in the interface of the textures that are loaded from at
     /// the pixel.
     loads: Vec<u32>,
+    /// After the loads.
+    shadows: Vec<ShadowFilter>,
     /// The shifts of filters.
     uniforms: Uniforms,
-    /// For each group, each filter, and then the loads, if there are any: the number of its first
-    /// read, and how many it has.
-    spans: Vec<[usize; 2]>,
-    /// For each read, the number of its span and its place there.
+    spans: Vec<Span>,
+    /// For each read, the number of its span and its first scalar there.
     of_read: Vec<(usize, usize)>,
 }
 
-/// Reads at the same place.
-#[derive(Debug)]
-struct Group {
-    place: Place,
-    /// The positions in the interface of each read's texture and sampler.
-    textures: Vec<[u32; 2]>,
+/// The reads of a group, of a filter, or the loads.
+#[derive(Debug, Clone, Copy)]
+struct Span {
+    /// The scalars of a packet before the span's.
+    before: usize,
+    /// Those of the span.
+    scalars: usize,
 }
 
 impl Reads {
@@ -92,7 +95,9 @@ impl Reads {
     pub(super) fn take(tree: &mut Tree, widths: Widths, gradients: &[usize]) -> Self {
         let found = found(tree, widths, gradients);
         let loads = pixel_loads::found(tree, MOST - found.len());
-        if found.is_empty() && loads.is_empty() {
+        let most = MOST - found.len() - loads.len();
+        let compared = comparisons::found(tree, widths, gradients, most);
+        if found.is_empty() && loads.is_empty() && compared.is_empty() {
             return Self::default();
         }
         let mut reads = Self {
@@ -115,27 +120,52 @@ impl Reads {
                 _ => (false, reads.add(read)),
             });
         }
+        let (shadows, shadow_places) = ShadowFilter::of_all(tree, &compared, &mut uniforms);
+        reads.shadows = shadows;
         reads.uniforms = uniforms.finish();
-        let groups = reads.groups.iter().map(|group| group.textures.len());
-        let filters = reads.filters.iter().map(|filter| filter.shifts.len());
-        let loaded = Some(loads.len()).filter(|count| *count > 0);
-        for (span, count) in groups.chain(filters).chain(loaded).enumerate() {
-            reads.spans.push([reads.of_read.len(), count]);
-            reads.of_read.extend((0..count).map(|at| (span, at)));
-        }
+        let first_reads = reads.add_spans();
         let mut numbers: HashMap<Value, usize> = HashMap::new();
         for (read, (is_tap, (group, at))) in found.iter().zip(places) {
             let before = if is_tap { reads.groups.len() } else { 0 };
-            let [first, _] = reads.spans[before + group];
-            numbers.insert(read.first, first + at);
+            numbers.insert(read.first, first_reads[before + group] + at);
         }
-        let first_load = reads.of_read.len() - loads.len();
-        numbers.extend((loads.iter().map(|load| load.first)).zip(first_load..));
+        let mut others = first_reads
+            .iter()
+            .skip(reads.groups.len() + reads.filters.len());
+        if !loads.is_empty()
+            && let Some(first) = others.next()
+        {
+            numbers.extend((loads.iter().map(|load| load.first)).zip(*first..));
+        }
+        let first_reads: Vec<usize> = others.copied().collect();
+        for (compared, (filter, at)) in compared.iter().zip(shadow_places) {
+            numbers.insert(compared.first, first_reads[filter] + at);
+        }
         let body = std::mem::take(&mut tree.body);
         tree.body = with_inputs(&mut tree.interface, body, &numbers);
         passes::dead_code(tree);
         passes::unused_inputs(tree);
         reads
+    }
+
+    /// Adds the spans; returns the number of the first read of each.
+    fn add_spans(&mut self) -> Vec<usize> {
+        let groups = self.groups.iter().map(|group| group.textures.len());
+        let filters = self.filters.iter().map(|filter| filter.shifts.len());
+        let loaded = Some(self.loads.len()).filter(|count| *count > 0);
+        let texels = groups.chain(filters).chain(loaded);
+        let shadows = self.shadows.iter().map(ShadowFilter::count);
+        let all = texels.map(|count| (count, CHANNELS));
+        let (mut before, mut firsts) = (0, Vec::new());
+        for (span, (count, each)) in all.chain(shadows.map(|count| (count, 1))).enumerate() {
+            firsts.push(self.of_read.len());
+            let of_reads = (0..count).map(|at| (span, at * each));
+            self.of_read.extend(of_reads);
+            let scalars = count * each;
+            self.spans.push(Span { before, scalars });
+            before += scalars;
+        }
+        firsts
     }
 
     /// Adds a read; its group and its place there.
@@ -218,17 +248,24 @@ impl Reads {
 
     /// The span of a read, and where a component is among those of a packet there.
     pub(super) fn place(&self, read: u32, component: u32) -> Option<(usize, usize)> {
-        let (span, at) = *self.of_read.get(read as usize)?;
-        Some((span, at * CHANNELS + component as usize))
+        let (span, first) = *self.of_read.get(read as usize)?;
+        Some((span, first + component as usize))
     }
 
-    /// Where a span's first packet is among the texels of so many packets, and the step to the
+    /// Where a span's first packet is among the results for so many packets, and the step to the
     /// next. Spans follow each other; in a span, the packets.
     pub(super) fn places(&self, span: usize, packets: usize) -> (usize, usize) {
-        let Some([first, count]) = self.spans.get(span) else {
-            return (usize::MAX, 0);
-        };
-        (first * packets * CHANNELS, count * CHANNELS)
+        let span = self.spans.get(span);
+        span.map_or((usize::MAX, 0), |span| {
+            (span.before * packets, span.scalars)
+        })
+    }
+
+    /// The scalars of all results for a packet.
+    fn scalars(&self) -> usize {
+        self.spans
+            .last()
+            .map_or(0, |last| last.before + last.scalars)
     }
 
     /// Makes all reads of a batch. Gives the texels, of which [`place`](Self::place) tells where
@@ -243,7 +280,7 @@ impl Reads {
             return then(&[]);
         }
         let mut memory = MEMORY.take();
-        let needed = self.of_read.len() * fragments.packets * CHANNELS;
+        let needed = self.scalars() * fragments.packets;
         let mut texels = std::mem::take(&mut memory.texels);
         if texels.len() < needed {
             texels.resize(needed, Packet::default());
@@ -287,6 +324,20 @@ impl Reads {
             packets,
             ..
         } = fragments;
+        let compared: usize = self.shadows.iter().map(ShadowFilter::count).sum();
+        let sampled = (self.scalars() - compared) * packets;
+        let Some((texels, mut shares)) = texels.split_at_mut_checked(sampled) else {
+            return;
+        };
+        for filter in &self.shadows {
+            let count = packets * filter.count();
+            let Some((shares_of_filter, others)) = shares.split_at_mut_checked(count) else {
+                return;
+            };
+            shares = others;
+            let of = (textures, &memory.values[..]);
+            filter.compare(of, (scalars, stride), shares_of_filter);
+        }
         let (mut left, _) = texels.as_chunks_mut::<CHANNELS>();
         for group in &self.groups {
             let count = packets * group.textures.len();
@@ -313,101 +364,3 @@ impl Reads {
 
 /// Packets that a texture is asked for together: those of most batches.
 pub(super) const TOGETHER: usize = 16;
-
-fn clear(texel: &mut [Packet<f32>; CHANNELS]) {
-    *texel = [Packet::default(); CHANNELS];
-}
-
-impl Group {
-    fn sample(
-        &self,
-        textures: &BoundTextures<'_>,
-        (scalars, stride): (&[Packet<f32>], usize),
-        texels: &mut [[Packet<f32>; CHANNELS]],
-    ) {
-        let each = self.textures.len();
-        let mut sampled = [None; MOST];
-        for (to, [texture, sampler]) in sampled.iter_mut().zip(&self.textures) {
-            *to = textures.sampled(*texture, *sampler);
-        }
-        let sampled = &sampled[..each.min(MOST)];
-        if let (Some((places, lod)), Some(first)) = (self.place.flat(scalars, stride), sampled[0]) {
-            let mut all = [first; MOST];
-            let mut known = all.iter_mut().zip(sampled);
-            let are_known = known.all(|(to, one)| one.map(|one| *to = one).is_some());
-            let is_common = are_known
-                && lod != PacketLod::Level
-                && SampledTexture::sample_places(&all[..each], &places, texels);
-            if is_common {
-                return;
-            }
-            if each == 1
-                && lod != PacketLod::Gradients
-                && first.sample_shifted(lod, &places, &TapShifts::UNSHIFTED, texels)
-            {
-                return;
-            }
-        }
-        let mut packets = scalars.chunks_exact(stride.max(1));
-        for texels in texels.chunks_mut(TOGETHER * each) {
-            let mut requests = [PacketRequest::ZEROS; TOGETHER];
-            let mut count = 0;
-            for (asked, scalars) in requests.iter_mut().zip(&mut packets) {
-                self.place.ask(scalars, asked);
-                count += 1;
-            }
-            for (texture, first) in sampled.iter().zip(0..) {
-                let Some(texels) = texels.get_mut(first..) else {
-                    break;
-                };
-                match texture {
-                    Some(texture) => {
-                        texture.sample_requests(&requests[..count], texels, each);
-                    }
-                    None => texels.iter_mut().step_by(each).for_each(clear),
-                }
-            }
-        }
-    }
-}
-
-/// A body in which reads, whose numbers are given by their first results, are inputs.
-fn with_inputs(
-    interface: &mut Interface,
-    body: Vec<Node>,
-    numbers: &HashMap<Value, usize>,
-) -> Vec<Node> {
-    let mut nodes = Vec::with_capacity(body.len());
-    for node in body {
-        match node {
-            Node::Op { first, .. } if numbers.contains_key(&first) => {
-                push_inputs((interface, &mut nodes), numbers[&first], first);
-            }
-            Node::Block {
-                label,
-                results,
-                body,
-            } => nodes.push(Node::Block {
-                label,
-                results,
-                body: with_inputs(interface, body, numbers),
-            }),
-            node => nodes.push(node),
-        }
-    }
-    nodes
-}
-
-/// Reads a read's texel: inputs in place of the results of the sample.
-fn push_inputs((interface, nodes): (&mut Interface, &mut Vec<Node>), read: usize, first: Value) {
-    let number = |count: usize| u32::try_from(count).expect("a tree of fewer than 2^32 values");
-    let Interface { inputs, .. } = interface;
-    for (component, first) in (0..).zip(first.and_next(CHANNELS)) {
-        let op = Op::Input(number(inputs.len()));
-        inputs.push(Input::TextureRead {
-            read: number(read),
-            component,
-        });
-        nodes.push(Node::Op { op, first });
-    }
-}

@@ -91,7 +91,7 @@ impl Place {
 
 /// The values of a tree's outermost body that are scalars of the fragment's varyings or their
 /// derivatives.
-fn scalars(tree: &Tree, widths: Widths, gradients: &[usize]) -> HashMap<Value, usize> {
+pub(super) fn scalars(tree: &Tree, widths: Widths, gradients: &[usize]) -> HashMap<Value, usize> {
     let scalar = |node: &Node| {
         let Node::Op {
             op: Op::Input(at),

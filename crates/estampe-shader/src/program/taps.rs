@@ -41,7 +41,7 @@ impl<V> Shift<V> {
 
 impl Shift<usize> {
     /// The number that is added, given the uniform values.
-    fn amount(self, values: &[u32]) -> f32 {
+    pub(super) fn amount(self, values: &[u32]) -> f32 {
         match self {
             // Unlike +0, −0 changes no number.
             Self::Zero => -0.0,

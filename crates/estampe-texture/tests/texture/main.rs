@@ -6,6 +6,7 @@ mod bits;
 mod blocks;
 mod bytes;
 mod codes;
+mod comparisons;
 mod create;
 mod descriptors;
 mod fetch;
