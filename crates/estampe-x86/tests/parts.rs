@@ -145,3 +145,77 @@ fn parts_are_what_slices_of_their_own_would_be() {
         }
     }
 }
+
+const ALL_IN_MEMORY: &str = "
+kernel fragment
+input varying(0)
+input varying(1)
+input cover
+output color(0, 0)
+output depth
+output cover
+b0:
+  v0 = input 0
+  v1 = input 1
+  m2 = input_mask 2
+  v3 = add v0, v1
+  uv4 = const 100
+  m5 = ult v3, uv4
+  m6 = mand m2, m5
+  return v3, v1, m6
+";
+
+/// Runs one after the other whose data are in the same memory, or elsewhere, or of other lengths,
+/// with another code between them.
+#[test]
+fn runs_in_the_same_memory_give_their_own_results() {
+    let kernel = text::kernel(ALL_IN_MEMORY).unwrap();
+    let definition = interpreter::Code::new(&kernel);
+    let mut random = fastrand::Rng::with_seed(8);
+    for isa in Isa::ALL.into_iter().filter(|isa| isa.is_available()) {
+        for tier in [Tier::Fast, Tier::Optimised] {
+            let codes = [(); 2].map(|()| Code::compile(&kernel, isa, tier).unwrap());
+            let mut scratch = Scratch::default();
+            let mut memories = [(); 2].map(|()| vec![Packet([0; LANES]); 16 * 2]);
+            let mut results = [(); 2].map(|()| vec![Packet([0; LANES]); 16]);
+            for round in 0..24_usize {
+                let packets = if round % 7 == 3 { 5 } else { 16 };
+                let scalars = &mut memories[usize::from(round % 5 == 4)];
+                for packet in &mut *scalars {
+                    packet.0.fill_with(|| random.u32(..100));
+                }
+                let given: Vec<u16> = (0..packets).map(|_| random.u16(..)).collect();
+                let mut masks = [given.clone(), given];
+                let [of_code, of_definition] = &mut masks;
+                let [found, wanted] = &mut results;
+                let mut go = |to: &mut Vec<Packet<u32>>, mask: &mut Vec<u16>, is_code: bool| {
+                    let mask = cells(mask);
+                    let run = Run {
+                        inputs: &[
+                            InputData::words(scalars, 0, 2),
+                            InputData::words(scalars, 1, 2),
+                            InputData::SharedMask(mask),
+                        ],
+                        outputs: &[
+                            OutputData::words(cells(to), 0, 1),
+                            OutputData::Dropped,
+                            OutputData::Mask(mask),
+                        ],
+                        ..Run::new(packets)
+                    };
+                    if is_code {
+                        let code = &codes[usize::from(round % 9 == 8)];
+                        code.run(Level::best(), &run, &mut scratch).unwrap();
+                    } else {
+                        let mut registers = interpreter::Scratch::default();
+                        definition.run(Level::best(), &run, &mut registers).unwrap();
+                    }
+                };
+                go(found, of_code, true);
+                go(wanted, of_definition, false);
+                assert_eq!(found[..packets], wanted[..packets], "{isa:?} {round}");
+                assert_eq!(masks[0], masks[1], "{isa:?} {round}");
+            }
+        }
+    }
+}
