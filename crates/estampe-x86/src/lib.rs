@@ -115,9 +115,13 @@ mod places;
 #[cfg(target_arch = "x86_64")]
 mod run;
 #[cfg(target_arch = "x86_64")]
+mod scratch;
+#[cfg(target_arch = "x86_64")]
 mod select;
 #[cfg(target_arch = "x86_64")]
 mod serve;
+#[cfg(target_arch = "x86_64")]
+mod workgroups;
 
 #[cfg(target_arch = "x86_64")]
 pub use compile::Code;
@@ -126,4 +130,4 @@ pub use elsewhere::{Code, Scratch};
 pub use error::CompileError;
 pub use isa::{Isa, Tier};
 #[cfg(target_arch = "x86_64")]
-pub use run::Scratch;
+pub use scratch::Scratch;

@@ -4,95 +4,20 @@ use crate::Code;
 use crate::enter::{Line, enter};
 use crate::frame::{self, PACKET};
 use crate::places::Track;
+use crate::scratch::{Begin, Scratch};
 use crate::serve::Context;
+use crate::workgroups::Again;
 use estampe_ir::Type;
 use estampe_ir::interpreter::{Buffer, InputData, Part, Run, Stopped, Words};
 use estampe_simd::Level;
-use std::cell::RefCell;
 use std::sync::atomic::AtomicU32;
 use std::sync::atomic::Ordering::Relaxed;
 
-/// The memory of a run, kept for the next one. One for each thread.
-#[derive(Debug, Default)]
-pub struct Scratch {
-    lines: Vec<Line>,
-    /// The code for which the lines were cleared.
-    code: u64,
-    /// Copies of buffers that are shorter than what instructions read at fixed places.
-    padded: Vec<Vec<u32>>,
-    /// The memory of a work-group.
-    workgroup: Vec<AtomicU32>,
-    /// Where the data of the run are.
-    tracks: Vec<Track>,
-    /// Pointers and steps as a work-group finds them.
-    pointers: Vec<Line>,
-    /// The pointers of the last run that began with several passes.
-    begin: Begin,
-}
-
-/// The pointers with which a run began. The next one most often has its data in the same memory,
-/// and begins with the same pointers.
-#[derive(Debug, Default)]
-struct Begin {
-    /// The code of the run; none has the number 0.
-    code: u64,
-    packets: usize,
-    tracks: Vec<Track>,
-    pointers: Vec<Line>,
-}
-
-impl Begin {
-    /// True if a run of so many packets begins so, and its steps are still in the frame.
-    #[inline]
-    fn is_of(&self, code: &Code, packets: usize, tracks: &[Track]) -> bool {
-        (self.code, self.packets) == (code.id, packets) && self.tracks == tracks
-    }
-}
-
 /// Bytes of a line.
-const LINE: u32 = PACKET;
+pub(crate) const LINE: u32 = PACKET;
 
 /// Words of eight bytes of a line.
 const WORDS: usize = LINE as usize / 8;
-
-impl Scratch {
-    /// True if it was last used for this code: for others the whole frame is cleared first.
-    #[must_use]
-    pub fn is_of(&self, code: &Code) -> bool {
-        self.code == code.id
-    }
-
-    /// The bytes of its memory.
-    #[must_use]
-    pub fn bytes(&self) -> usize {
-        let padded: usize = self.padded.iter().map(Vec::capacity).sum();
-        self.lines.capacity() * size_of::<Line>() + (self.workgroup.capacity() + padded) * 4
-    }
-
-    /// The jumps backwards of the last run of a code, about: those of its last pass for every
-    /// packet; of a work-group with barriers all, and of several work-groups the last one's.
-    #[must_use]
-    pub fn jumps(&self, code: &Code, run: &Run<'_>) -> u64 {
-        let left = self
-            .lines
-            .first()
-            .map_or(0, |head| head.0[frame::BUDGET as usize / 8]);
-        let jumps = run.budget.saturating_sub(left);
-        match code.workgroup_words {
-            _ if !code.has_loops => 0,
-            Some(_) => jumps,
-            None => jumps.saturating_mul(run.packets as u64),
-        }
-    }
-}
-
-/// How to run the packets of another work-group, as those of the first one.
-#[derive(Debug, Clone, Copy)]
-struct Again {
-    /// Where the function begins.
-    function: usize,
-    passes: usize,
-}
 
 impl Code {
     /// Executes the kernel in all lanes of all packets.
@@ -107,78 +32,8 @@ impl Code {
         self.run_workgroups(level, run, &[], scratch)
     }
 
-    /// Executes the kernel for work-groups with these ids, one after the other: each as
-    /// [`run`](Self::run) does with its own `Input::WorkgroupId`, all else being the same, which is
-    /// looked for once. Without ids, one run with the inputs as they are.
-    ///
-    /// # Errors
-    /// [`Stopped`] as for one run; the work-groups after it are not run.
-    ///
-    /// # Panics
-    /// Where an access to a texture panics.
-    pub fn run_workgroups(
-        &self,
-        level: Level,
-        run: &Run<'_>,
-        ids: &[[u32; 3]],
-        scratch: &mut Scratch,
-    ) -> Result<(), Stopped> {
-        if run.packets == 0 {
-            return Ok(());
-        }
-        let states = self.workgroup_words.map_or(1, |_| run.packets);
-        self.make_room(states, scratch)?;
-        self.set_table(run, &mut scratch.lines);
-        self.set_buffers(run, scratch);
-        let Scratch {
-            lines,
-            workgroup,
-            tracks,
-            pointers,
-            begin,
-            ..
-        } = scratch;
-        find_data(run, tracks);
-        set_head(lines, frame::PASS_BUDGET, run.budget);
-        let mut before = None;
-        for number in 0..ids.len().max(1) {
-            if number > 0 {
-                clear(workgroup);
-            }
-            if let Some(id) = ids.get(number) {
-                self.set_workgroup_id(*id, lines);
-            }
-            let context = Context {
-                served: &self.served,
-                frame: &self.frame,
-                run,
-                level,
-                reset_locals: &self.reset_locals,
-                workgroup,
-                states,
-                local_words: &self.local_words,
-                panic: RefCell::new(None),
-            };
-            if let Some(prepare) = self.prepare {
-                enter(&self.executable, prepare, lines, &context);
-            }
-            let stopped = match before {
-                Some(before) => self.run_again(before, (pointers, lines), &context),
-                None if self.workgroup_words.is_some() => {
-                    self.run_workgroup(run, (tracks, lines), &context)
-                }
-                None => self.run_packets(run, (tracks, lines), (begin, pointers), &context),
-            };
-            if let Some(panic) = context.panic.take() {
-                std::panic::resume_unwind(panic);
-            }
-            before = stopped?;
-        }
-        Ok(())
-    }
-
     /// Runs all packets of a work-group, each of which has a state.
-    fn run_workgroup(
+    pub(crate) fn run_workgroup(
         &self,
         run: &Run<'_>,
         (tracks, lines): (&[Track], &mut [Line]),
@@ -195,22 +50,7 @@ impl Code {
         }))
     }
 
-    /// Runs another work-group as the one before, if need be with the pointers that it found.
-    fn run_again(
-        &self,
-        before: Again,
-        (pointers, lines): (&[Line], &mut [Line]),
-        context: &Context<'_>,
-    ) -> Result<Option<Again>, Stopped> {
-        if self.workgroup_words.is_none() {
-            lines[self.frame.pointer_lines()].copy_from_slice(pointers);
-        }
-        set_head(lines, frame::LEFT, before.passes as u64);
-        self.enter(before.function, lines, context)?;
-        Ok(Some(before))
-    }
-
-    fn enter(
+    pub(crate) fn enter(
         &self,
         function: usize,
         lines: &mut [Line],
@@ -224,7 +64,7 @@ impl Code {
 
     /// Runs packets one by one or two by two. Gives how to do it again, if one call ran all of
     /// them; `again_pointers` then are what it found.
-    fn run_packets(
+    pub(crate) fn run_packets(
         &self,
         run: &Run<'_>,
         (tracks, lines): (&[Track], &mut [Line]),
@@ -279,23 +119,6 @@ impl Code {
         Ok(again)
     }
 
-    /// True if the kernel asks for the id of its work-group, as those of dispatches do.
-    fn has_workgroup_ids(&self) -> bool {
-        !self.workgroup_ids.is_empty()
-    }
-
-    /// Sets the inputs that are the id of a work-group.
-    fn set_workgroup_id(&self, id: [u32; 3], lines: &mut [Line]) {
-        for &(at, axis) in &self.workgroup_ids {
-            let word = id.get(axis as usize).copied().unwrap_or_default();
-            for &(_, slot) in self.table_inputs.iter().filter(|(input, _)| *input == at) {
-                self.set_slot(slot, word, lines);
-            }
-            let still = self.frame.still + at * PACKET;
-            lines[(still / LINE) as usize] = splat(word);
-        }
-    }
-
     /// True if all inputs of a run are in memory, so that none is made in the frame.
     fn are_in_memory(&self, run: &Run<'_>, tracks: &[Track]) -> bool {
         (0..).zip(&self.input_types).all(|(number, &kind)| {
@@ -307,7 +130,7 @@ impl Code {
 
     /// Makes room for a frame with so many states, and for the memory of a work-group, which is
     /// cleared.
-    fn make_room(&self, states: usize, scratch: &mut Scratch) -> Result<(), Stopped> {
+    pub(crate) fn make_room(&self, states: usize, scratch: &mut Scratch) -> Result<(), Stopped> {
         let lines = self.frame.lines(states).ok_or(Stopped::Memory)?;
         if let Some(more) = lines.checked_sub(scratch.lines.len()) {
             let reserved = scratch.lines.try_reserve_exact(more);
@@ -333,21 +156,21 @@ impl Code {
     }
 
     /// Inputs that are words of the table.
-    fn set_table(&self, run: &Run<'_>, lines: &mut [Line]) {
+    pub(crate) fn set_table(&self, run: &Run<'_>, lines: &mut [Line]) {
         for &(at, slot) in &self.table_inputs {
             self.set_slot(slot, run.input(at).first_word(), lines);
         }
     }
 
     /// Sets a value of the table.
-    fn set_slot(&self, slot: u32, word: u32, lines: &mut [Line]) {
+    pub(crate) fn set_slot(&self, slot: u32, word: u32, lines: &mut [Line]) {
         let offset = self.frame.slot(slot);
         for copy in 0..self.frame.slot_bytes / 4 {
             set_word(lines, offset + copy * 4, word);
         }
     }
 
-    fn set_buffers(&self, run: &Run<'_>, scratch: &mut Scratch) {
+    pub(crate) fn set_buffers(&self, run: &Run<'_>, scratch: &mut Scratch) {
         for (at, &fixed) in (0..).zip(&self.fixed_words) {
             let buffer = run.buffers.get(at as usize).copied().unwrap_or_default();
             let (mut address, words, stored) = match buffer.words() {
@@ -483,14 +306,14 @@ impl Code {
 }
 
 /// Sets the memory of a work-group to zeros.
-fn clear(memory: &mut [AtomicU32]) {
+pub(crate) fn clear(memory: &mut [AtomicU32]) {
     for word in memory {
         *word.get_mut() = 0;
     }
 }
 
 /// Where the data of a run are: those of inputs, then those of outputs.
-fn find_data(run: &Run<'_>, tracks: &mut Vec<Track>) {
+pub(crate) fn find_data(run: &Run<'_>, tracks: &mut Vec<Track>) {
     let last = run.packets - 1;
     tracks.clear();
     tracks.extend((run.inputs.iter()).map(|input| Track::of_input(input, last)));
@@ -507,7 +330,7 @@ fn copy_padded(buffer: Buffer<'_>, len: usize, to: &mut Vec<u32>) {
     to.resize(len, 0);
 }
 
-fn splat(word: u32) -> Line {
+pub(crate) fn splat(word: u32) -> Line {
     Line([u64::from(word) << 32 | u64::from(word); 8])
 }
 
@@ -518,7 +341,7 @@ fn set_pointer(lines: &mut [Line], offset: usize, address: usize) {
 }
 
 /// Sets eight bytes of the head.
-fn set_head(lines: &mut [Line], offset: i32, value: u64) {
+pub(crate) fn set_head(lines: &mut [Line], offset: i32, value: u64) {
     let at = offset.unsigned_abs() as usize / 8;
     lines[at / 8].0[at % 8] = value;
 }
