@@ -9,9 +9,9 @@ pub(crate) const BLOCK: u32 = 64;
 ///
 /// A tile is 64×64 pixels for one sample, so that RGBA8 and depth fill the first-level cache, 32
 /// KiB. It is as large for four samples, 128 KiB: what each triangle costs in each tile that it
-/// touches is more than what the second-level cache does (`msaa4` took 1.13 of its time with tiles
-/// of 32×32 pixels, `foliage` 1.05). Only for 2, 8 and 16 samples it is 32×32. Tiles are numbered
-/// in storage order: tile `n` is the `n`-th slice of `tile_pixels() * samples`.
+/// touches is more than what the second-level cache does (`msaa4` took a tenth longer with tiles of
+/// 32×32 pixels). Only for 2, 8 and 16 samples it is 32×32. Tiles are numbered in storage order:
+/// tile `n` is the `n`-th slice of `tile_pixels() * samples`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct TileGrid {
     /// Blocks in a row of the target.
