@@ -8,8 +8,8 @@
 //!
 //! In nearly all packets, all texels are lit or all are in shadow. Then the depth min/max of the
 //! window of 8×8 texels that [`sample_compare_sum`] can reach decides the packet: that takes one
-//! load per lane, instead of four for each sample. The sum is the same, because results that are all
-//! 1 or all 0 keep their value when they are filtered.
+//! load per lane, instead of four for each sample. The sum is the same, because results that are
+//! all 1 or all 0 keep their value when they are filtered.
 //!
 //! If the bounds do not decide, 3×3 samples one texel apart share their texels: 16 texels are
 //! compared instead of 36.

@@ -1,8 +1,8 @@
 //! A depth attachment as a texture: the same memory, and the bounds of its packets beside it.
 //!
 //! Once a texture was taken of an attachment, its next passes find the bounds of each tile while
-//! its depths are in the cache: afterwards, they would come from memory once more. When a texture is
-//! taken, bounds are joined to windows, which reach over the edges of tiles.
+//! its depths are in the cache: afterwards, they would come from memory once more. When a texture
+//! is taken, bounds are joined to windows, which reach over the edges of tiles.
 
 use super::bands::Bands;
 use super::texels::DepthStencilTexels;

@@ -124,8 +124,6 @@ fn squares_are_sampled_as_each_tap_alone() {
             }
         }
     }
-    assert!(
-        all == 0 || squares > all / 2 && squares < all,
-        "{squares} of {all}"
-    );
+    // The texture has fewer rows than a square may read.
+    assert_eq!(squares, all);
 }

@@ -123,8 +123,8 @@ impl ShadowMap {
         )
     }
 
-    /// A texture from depths in storage order, all in 0..=1, and their windows. The texture is empty
-    /// if the lengths do not fit the size.
+    /// A texture from depths in storage order, all in 0..=1, and their windows. The texture is
+    /// empty if the lengths do not fit the size.
     #[must_use]
     pub fn from_storage(
         (width, height): (u32, u32),

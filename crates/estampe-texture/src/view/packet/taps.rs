@@ -257,8 +257,8 @@ impl Lines {
         bottom: 0,
     };
 
-    /// Adds those of a tap. Any of its rows may be the first or the last: a texture may be mirrored,
-    /// and a packet may show several triangles.
+    /// Adds those of a tap. Any of its rows may be the first or the last: a texture may be
+    /// mirrored, and a packet may show several triangles.
     #[inline(always)]
     pub(super) fn add(&mut self, tap: Footprint<'_>) {
         let mut row = 0;
@@ -275,8 +275,8 @@ impl Lines {
         self.bottom = self.bottom.max(last);
     }
 
-    /// The channels of a tap whose rows are between these, which are filtered along x. The number of
-    /// lines is a power of two and one.
+    /// The channels of a tap whose rows are between these, which are filtered along x. The number
+    /// of lines is a power of two and one.
     #[inline(always)]
     pub(super) fn between<S: SimdLanes, const ROOM: usize>(
         &self,
