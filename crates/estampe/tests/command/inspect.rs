@@ -138,7 +138,7 @@ fn stages_are_the_same_at_every_number_of_threads_and_their_totals_agree() {
     assert_eq!(total(0, "primitives"), Some(4));
     let clip = ["inside", "clipped", "dropped"].map(|name| total(1, name).expect("a number"));
     assert_eq!(clip.iter().sum::<u64>(), 4, "{clip:?}");
-    assert_eq!(total(2, "tile_side"), Some(32), "of 4 samples");
+    assert_eq!(total(2, "tile_side"), Some(64), "of 4 samples");
     assert_eq!(
         total(3, "covered"),
         total(4, "runs"),
