@@ -27,6 +27,14 @@ impl<const N: usize> Covered<N> {
 }
 
 impl<const N: usize> Covered<N> {
+    /// Clips it to a rectangle of the tile's pixels.
+    #[inline(always)]
+    pub(crate) fn clip(&mut self, rect: &PixelRect) {
+        let (x, y) = packet_origin(u32::from(self.packet));
+        let inside = rect_mask(rect, x, y);
+        self.masks.iter_mut().for_each(|mask| *mask &= inside);
+    }
+
     /// Returns the number of covered samples.
     #[inline(always)]
     pub(crate) fn count(&self) -> u64 {
@@ -166,11 +174,7 @@ impl<const N: usize> CoverageList<N> {
 
     /// Clips the list to a rectangle of the tile's pixels.
     pub(crate) fn clip(&mut self, rect: &PixelRect) {
-        self.retain(|item| {
-            let (x, y) = packet_origin(u32::from(item.packet));
-            let inside = rect_mask(rect, x, y);
-            item.masks.iter_mut().for_each(|mask| *mask &= inside);
-        });
+        self.retain(|item| item.clip(rect));
     }
 
     /// [`CoverageList::clip`], where many lists are clipped to one rectangle.

@@ -14,7 +14,7 @@
 
 use super::coverage::CoveredPackets;
 use super::triangle::{Edge, TilePolygon};
-use super::{CoverageList, Covered, MAX_PACKETS, TileShape, rect_mask};
+use super::{CoverageList, Covered, MAX_PACKETS, SampleSet, TileShape, rect_mask};
 use crate::bounds::pixel_rect::PixelRect;
 use estampe_simd::{LANE_X, LANE_Y, LANES, Lanes, SimdBase, i32x16};
 
@@ -160,17 +160,19 @@ impl<const N: usize, const E: usize> TilePolygon<N, E> {
             steps.list_packets(s, self, live, &AnyPacket, &mut out.walk);
         }
         let CoverageList { walk, covered, .. } = out;
-        steps.cover_packets(s, self, (&walk.values, walk.packets.items()), covered);
+        steps.list_covered(s, self, (&walk.values, walk.packets.items()), covered);
         covered_whole
     }
 
-    /// Lists the packets that the polygon covers, those of two classes apart.
+    /// Lists the packets of the first class that the polygon covers, and gives those of the second,
+    /// of which some may not be covered at all.
     #[inline(always)]
     pub(crate) fn cover_classes<S: Lanes, C: PacketClasses<S>>(
         &self,
         s: S,
         classes: &C,
-        [first, second]: [&mut CoverageList<N>; 2],
+        first: &mut CoverageList<N>,
+        second: impl FnMut(Covered<N>),
     ) {
         let steps = Steps::new(s, self);
         let mut live = self.blocks();
@@ -180,9 +182,9 @@ impl<const N: usize, const E: usize> TilePolygon<N, E> {
         let CoverageList { walk, covered, .. } = first;
         walk.clear();
         steps.list_packets(s, self, live, classes, walk);
-        steps.cover_packets(s, self, (&walk.values, walk.packets.items()), covered);
+        steps.list_covered(s, self, (&walk.values, walk.packets.items()), covered);
         let others = (&walk.values, walk.others.items());
-        steps.cover_packets(s, self, others, &mut second.covered);
+        steps.cover_packets(s, self, others, covered.samples, second);
     }
 
     /// The blocks that the box touches, one bit each.
@@ -277,6 +279,33 @@ impl<S: Lanes, const E: usize> Steps<S, E> {
         }
     }
 
+    /// Lists those of the listed packets that are covered.
+    #[inline(always)]
+    fn list_covered<const N: usize>(
+        &self,
+        s: S,
+        polygon: &TilePolygon<N, E>,
+        listed: (&[[i32; MAX_PACKETS]; MAX_EDGES], &[u32]),
+        out: &mut CoveredPackets<N>,
+    ) {
+        let CoveredPackets { samples, items, .. } = out;
+        // In a register: a length in memory would be waited for, item by item.
+        let mut len = out.len;
+        self.cover_packets(
+            s,
+            polygon,
+            listed,
+            *samples,
+            #[inline(always)]
+            |item| {
+                debug_assert!(len < MAX_PACKETS, "a packet comes once");
+                items[len % MAX_PACKETS] = item;
+                len += usize::from(item.any() != 0);
+            },
+        );
+        out.len = len;
+    }
+
     /// Covers the listed packets, sample by sample.
     #[inline(always)]
     fn cover_packets<const N: usize>(
@@ -284,17 +313,16 @@ impl<S: Lanes, const E: usize> Steps<S, E> {
         s: S,
         polygon: &TilePolygon<N, E>,
         (values, packets): (&[[i32; MAX_PACKETS]; MAX_EDGES], &[u32]),
-        out: &mut CoveredPackets<N>,
+        samples: SampleSet<N>,
+        mut give: impl FnMut(Covered<N>),
     ) {
-        let samples = out.samples.count();
+        let samples = samples.count();
         let mut pixel = [[splat(s, 0); N]; E];
         for (number, edge) in polygon.edges.iter().enumerate() {
             for (pixel, &c) in pixel[number].iter_mut().zip(&edge.c).take(samples) {
                 *pixel = self.pixel[number] + splat(s, c - edge.folded());
             }
         }
-        // In a register: a length in memory would be waited for, item by item.
-        let mut len = out.len;
         for packet in packets {
             let at = *packet as usize % MAX_PACKETS;
             let mut of_packet = [splat(s, 0); E];
@@ -302,22 +330,17 @@ impl<S: Lanes, const E: usize> Steps<S, E> {
                 *value = splat(s, of_packets[at]);
             }
             let mut masks = [0; N];
-            let mut any = 0;
             for (sample, mask) in masks.iter_mut().enumerate().take(samples) {
                 let mut outside = splat(s, 0);
                 for (pixel, value) in pixel.iter().zip(&of_packet) {
                     outside |= pixel[sample] + *value;
                 }
                 *mask = !s.sign_bits(outside);
-                any |= *mask;
             }
-            debug_assert!(len < MAX_PACKETS, "a packet comes once");
             #[expect(clippy::cast_possible_truncation, reason = "a tile has 256 packets")]
             let packet = at as u16;
-            out.items[len % MAX_PACKETS] = Covered { packet, masks };
-            len += usize::from(any != 0);
+            give(Covered { packet, masks });
         }
-        out.len = len;
     }
 }
 

@@ -14,6 +14,7 @@ use crate::fragment::interpolate::DepthPlane;
 use crate::per_sample::packet_ranges::PacketQuery;
 use crate::per_sample::stencil::FaceLanes;
 use crate::raster::triangle::TileTriangle;
+use crate::tile_pass::TileWork;
 use estampe_simd::{Lane, Lanes, dispatch};
 
 impl<const N: usize> Rasterizer<'_, '_, '_, N> {
@@ -53,59 +54,79 @@ impl<const N: usize> Rasterizer<'_, '_, '_, N> {
                 id: first + (lanes & (lane.bit() - 1)).count_ones(),
                 front,
             };
-            self.cover_counting(s, &triangle, &covering);
-            self.write_counting(s, &triangle, &faces[usize::from(front)]);
+            self.count_failing(s, &triangle, &covering, &faces[usize::from(front)]);
+            self.write_counting(&triangle);
         }
     }
 
-    /// Covers a triangle: what is tested, and what is known to fail the depth test.
+    /// Covers a triangle: counts where it is known to fail the depth test, and lists what is
+    /// tested.
     #[inline(always)]
-    fn cover_counting<S: Lanes>(
+    fn count_failing<S: Lanes>(
         &mut self,
         s: S,
         triangle: &VisibilityTriangle,
         covering: &TileTriangle<N>,
+        face: &FaceLanes<S>,
     ) {
         let ranges = &mut self.scratch.hiz.packets;
         ranges.refresh(covering.blocks(), self.samples.count(), self.job.depth);
         let look = self.hiz_query(triangle.plane, triangle.front);
         let query = PacketQuery::new(s, &look, &self.scratch.hiz.packets);
-        let visibility = &mut self.scratch.visibility;
-        let lists = [&mut visibility.list, &mut visibility.failing];
-        let [list, failing] = lists;
+        let list = &mut self.scratch.visibility.list;
         list.clear();
-        failing.clear();
-        covering.cover_classes(s, &query, [&mut *list, &mut *failing]);
-        if !self.work.is_whole {
-            list.clip(&self.work.rect);
-            failing.clip(&self.work.rect);
+        let TileWork {
+            plan,
+            rect,
+            is_whole,
+            ..
+        } = self.work;
+        let (depth, stencil) = (&*self.job.depth, &mut *self.job.stencil);
+        let (samples, mut packets) = (self.samples.count(), 0);
+        covering.cover_classes(
+            s,
+            &query,
+            list,
+            #[inline(always)]
+            |mut item| {
+                if !is_whole {
+                    item.clip(rect);
+                }
+                packets += u64::from(item.any() != 0);
+                let lines = usize::from(item.packet) * samples..;
+                for (line, &lanes) in lines.zip(&item.masks).take(samples) {
+                    if let Some(stencil) = stencil.get_mut(line) {
+                        let stored = (depth.get(line), stencil);
+                        plan.tests.run_failing(s, lanes, face, stored);
+                    }
+                }
+            },
+        );
+        if !is_whole {
+            list.clip(rect);
         }
+        self.scratch.statistics.packets_failing_depth += packets;
     }
 
+    /// Tests what is listed.
     #[inline(always)]
-    fn write_counting<S: Lanes>(
-        &mut self,
-        s: S,
-        triangle: &VisibilityTriangle,
-        face: &FaceLanes<S>,
-    ) {
+    fn write_counting(&mut self, triangle: &VisibilityTriangle) {
+        if self.scratch.visibility.list.items().is_empty() {
+            return;
+        }
         let plan = self.work.plan;
         let visibility = &mut self.scratch.visibility;
-        let (list, failing) = (visibility.list.items(), visibility.failing.items());
-        self.scratch.statistics.packets_failing_depth += failing.len() as u64;
+        let list = visibility.list.items();
         let counts = plan.query.is_some().then_some(&mut self.passed);
         let target = (&plan.tests, self.samples, self.work.shape);
         let buffer = &mut visibility.buffer;
         let mut single = std::mem::take(&mut buffer.single);
         let mut writer = VisibilityWriter::new(target, self.storage, self.job, buffer, counts);
-        writer.failing(s, face, failing);
-        if !list.is_empty() {
-            if writer.has_ids() {
-                let touched = blocks_of(0, list.iter().map(|item| item.packet));
-                single.write_out(self.work.level, touched, &mut writer);
-            }
-            writer.triangle(self.work.level, triangle, 0, list, true);
+        if writer.has_ids() {
+            let touched = blocks_of(0, list.iter().map(|item| item.packet));
+            single.write_out(self.work.level, touched, &mut writer);
         }
+        writer.triangle(self.work.level, triangle, 0, list, true);
         visibility.buffer.single = single;
     }
 }

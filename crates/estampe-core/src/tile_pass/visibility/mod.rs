@@ -64,8 +64,6 @@ const ONLY_WIDE: &str = "the scalar level draws in order";
 #[derive(Debug)]
 pub(super) struct VisibilityScratch<const N: usize> {
     list: CoverageList<N>,
-    /// The packets in which all of a triangle fails the depth test.
-    failing: CoverageList<N>,
     buffer: VisibilityBuffer<N>,
     small: SmallBoxes<N>,
     pixels: PixelList,
@@ -79,7 +77,6 @@ impl<const N: usize> Default for VisibilityScratch<N> {
     fn default() -> Self {
         Self {
             list: CoverageList::default(),
-            failing: CoverageList::default(),
             buffer: VisibilityBuffer::default(),
             small: SmallBoxes::default(),
             pixels: PixelList::default(),
@@ -103,7 +100,6 @@ pub(super) fn add<const N: usize>(
         resolve(pass, job, scratch);
     }
     scratch.visibility.list.set_samples(pass.sample_set());
-    scratch.visibility.failing.set_samples(pass.sample_set());
     let buffer = &mut scratch.visibility.buffer;
     let may_wait = shortcuts::may_wait(work, entries);
     let first = match work.plan.path {

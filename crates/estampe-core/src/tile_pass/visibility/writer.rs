@@ -222,21 +222,6 @@ impl<'a, const N: usize> VisibilityWriter<'a, N> {
         }
     }
 
-    /// Adds a triangle that changes stencil values in a list of packets, of which no sample passes
-    /// the depth test. `face` is its face's stencil test.
-    #[inline(always)]
-    pub(super) fn failing<S: Lanes>(&mut self, s: S, face: &FaceLanes<S>, list: &[Covered<N>]) {
-        for item in list {
-            for (sample, &lanes) in item.masks.iter().enumerate().take(self.samples.count()) {
-                let line = self.line_of(usize::from(item.packet), sample);
-                if let Some(stencil) = self.stencil.get_mut(line) {
-                    let stored = (self.depth.get(line), stencil);
-                    self.tests.run_failing(s, lanes, face, stored);
-                }
-            }
-        }
-    }
-
     #[inline(always)]
     fn block_depths<S: Lanes>(
         &self,
