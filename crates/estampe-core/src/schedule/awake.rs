@@ -15,8 +15,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 pub(super) struct Watch {
     /// The passes that are being drawn.
     passes: AtomicUsize,
-    /// Counts the lists of jobs that began and the passes that ended: helpers that wait stop when
-    /// it changes.
+    /// Counts the lists of jobs that began, and how often the last pass at hand ended: helpers that
+    /// wait stop when it changes.
     changes: AtomicUsize,
 }
 
@@ -85,8 +85,10 @@ impl Awake {
 impl Drop for Awake {
     fn drop(&mut self) {
         if let Some(watch) = &self.watch {
-            watch.passes.fetch_sub(1, Ordering::Relaxed);
-            watch.changes.fetch_add(1, Ordering::Release);
+            // A pass of a submission leaves them awake for the next one.
+            if watch.passes.fetch_sub(1, Ordering::Relaxed) == 1 {
+                watch.changes.fetch_add(1, Ordering::Release);
+            }
         }
     }
 }
@@ -112,7 +114,7 @@ mod tests {
     #[test]
     fn lists_of_jobs_are_done_while_helpers_wait() {
         let pool = Arc::new(ThreadPoolBuilder::new().num_threads(2).build().unwrap());
-        let watch = Arc::default();
+        let watch = Arc::<Watch>::default();
         let executor = Executor {
             watch: Some(Arc::clone(&watch)),
             ..Executor::on_pool(pool)
@@ -129,7 +131,13 @@ mod tests {
                 assert_eq!(items, vec![20; len]);
             }
             assert_eq!(watch.passes.load(Ordering::Relaxed), 1);
+            // Helpers wait for the next pass of a submission, and no longer when all have ended.
+            let changes = || watch.changes.load(Ordering::Acquire);
+            let before = changes();
+            drop(executor.awake());
+            assert_eq!(changes(), before);
             drop(outer);
+            assert_eq!(changes(), before + 1);
             assert_eq!(watch.passes.load(Ordering::Relaxed), 0);
         }
     }
