@@ -132,6 +132,8 @@ const LIBRARIES: &[&str] = &[
 const TESTS: &[(&str, &[&str])] = &[
     ("estampe-gpu", &["estampe-shapes"]),
     ("estampe-renderer", &["estampe-reference"]),
+    // Texels of storage textures are checked with the oracle's codec.
+    ("estampe-shader", &["estampe-reference"]),
     // Pictures of examples and tests as files.
     ("estampe-visibility", &["estampe-assets"]),
     // All of this crate is tests.
