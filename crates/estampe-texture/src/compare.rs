@@ -44,8 +44,8 @@ pub fn sample_compare_sum<R: Real, const N: usize>(
         return reference.with_lanes(
             #[inline(always)]
             |lane| {
-                let uv = Vec2::new(uv.x.lane(lane), uv.y.lane(lane));
-                sum_of_lane(&map, uv, offsets, reference.lane(lane))
+                let uv = Vec2::new(uv.x.lane_to_store(lane), uv.y.lane_to_store(lane));
+                sum_of_lane(&map, uv, offsets, reference.lane_to_store(lane))
             },
         );
     }

@@ -9,8 +9,8 @@
 use crate::{BufferData, SamplerDescriptor, ShadowMap, StorageBuffer, StorageTexture};
 use std::any::Any;
 use std::ops::Range;
-use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, OnceLock};
 
 /// One resource.
 #[derive(Debug, Clone)]
@@ -95,6 +95,8 @@ pub struct Bindings {
 pub struct Unbound {
     /// Every word, as an integer; as a float it has the same value.
     word: u16,
+    /// Every shadow map: of as many texels along a side, none if the word is 0.
+    shadow_map: OnceLock<ShadowMap>,
     is_missed: AtomicBool,
     reads_words: AtomicBool,
 }
@@ -112,7 +114,7 @@ impl Unbound {
         self.is_missed.load(Ordering::Relaxed)
     }
 
-    /// True if words were read.
+    /// True if something was read that differs between words.
     pub(crate) fn reads_words(&self) -> bool {
         self.reads_words.load(Ordering::Relaxed)
     }
@@ -135,6 +137,20 @@ impl Bindings {
             unbound.reads_words.store(true, Ordering::Relaxed);
             u32::from(unbound.word)
         })
+    }
+
+    /// The shadow map where none is bound. A dry run tries some, as it does with words: a body that
+    /// compares with one may take no derivatives all the same.
+    #[cold]
+    fn unbound_shadow_map(&self) -> Option<&ShadowMap> {
+        let unbound = self.unbound.as_ref()?;
+        unbound.reads_words.store(true, Ordering::Relaxed);
+        let side = unbound.word;
+        let map = || {
+            let depths = vec![0.5; usize::from(side) * usize::from(side)];
+            ShadowMap::from_rows(side.into(), side.into(), &depths)
+        };
+        (side > 0).then(|| unbound.shadow_map.get_or_init(map))
     }
 
     /// A resource, or nothing, which a dry run notes.
@@ -333,10 +349,10 @@ impl Bindings {
     #[inline]
     #[must_use]
     pub fn shadow_map(&self, group: u32, binding: u32) -> Option<&ShadowMap> {
-        self.found(match self.get(group, binding) {
+        match self.get(group, binding) {
             Some(BoundResource::ShadowMap(texture)) => Some(texture),
-            _ => None,
-        })
+            _ => self.unbound_shadow_map(),
+        }
     }
 }
 

@@ -3,7 +3,11 @@
 use super::Random;
 use super::requests::{bits, packets};
 use estampe_simd::{LANES, Level, Packet};
-use estampe_texture::{PacketPlaces, ShadowMap, compare_packets, compare_shifted, shifted};
+use estampe_texture::{
+    PacketPlaces, ShadowMap, compare_packets, compare_shifted, sample_compare_sum, shifted,
+};
+use estampe_types::shader::{VertexOut, interface_of};
+use estampe_types::{FragmentIn, FragmentOut, Vec2, Vec3, Vec4, VertexIn};
 
 #[test]
 fn comparisons_at_shifts_are_those_at_shifted_coordinates() {
@@ -76,4 +80,34 @@ fn comparisons_at_shifts_are_those_at_shifted_coordinates() {
         lit > 1000 && dark > 1000 && mixed > 1000,
         "{lit} {dark} {mixed}"
     );
+}
+
+/// The shadow of a map that is bound.
+struct Shadowed;
+
+estampe_types::shader! {
+    impl Shader for Shadowed {
+        type Attributes<R: Real> = Vec4<R>;
+        type Varyings<R: Real> = Vec3<R>;
+
+        fn vertex<R: Real>(&self, _: VertexIn<'_, R>, at: Vec4<R>) -> VertexOut<R, Vec3<R>> {
+            VertexOut::new(at, at.xyz())
+        }
+
+        fn fragment<R: Real>(&self, input: FragmentIn<'_, R>, at: Vec3<R>) -> FragmentOut<R> {
+            let offsets = [[0.0, 0.0], [0.25, 0.0]];
+            let lit = match input.bindings.shadow_map(0, 0) {
+                Some(map) => sample_compare_sum(map, Vec2::new(at.x, at.y), &offsets, at.z),
+                None => at.x,
+            };
+            FragmentOut::color(Vec4::repeat(lit))
+        }
+    }
+}
+
+/// So fragments of several triangles are shaded in one packet.
+#[test]
+fn comparisons_with_a_map_that_is_bound_take_no_derivatives() {
+    let interface = interface_of(&Shadowed).expect("it is valid");
+    assert!(interface.no_derivatives && !interface.color_passthrough);
 }

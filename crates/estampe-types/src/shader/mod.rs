@@ -114,7 +114,7 @@ use crate::{BindGroupLayout, Bindings, Real, Vec2, Vec4};
 ///   shader is not called at all.
 ///
 /// Both hold only of a body that branches on no mask, looks at no single lane, and does not ask
-/// [`Bindings`] for a resource that may be missing.
+/// [`Bindings`] for a resource that may be missing, but for a texture or a shadow map.
 pub trait Shader: Send + Sync + 'static {
     /// Attributes that a vertex reads, at location 0, 1, … in order: a number, a vector, a tuple of
     /// up to six of those, or a struct of [`attributes!`](crate::attributes).

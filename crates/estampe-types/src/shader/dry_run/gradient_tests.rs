@@ -13,6 +13,8 @@ enum Reads {
     OnBranch,
     BesideMissing,
     OnlyIfBound,
+    BesideMap,
+    OnlyWithMap,
 }
 
 struct Reading(Reads);
@@ -43,8 +45,14 @@ crate::shader! {
                 Reads::OnBranch if R::any(uv.value.x.gt(2.0)) => uv.ddx.x,
                 Reads::OnBranch => uv.value.x,
                 Reads::BesideMissing | Reads::OnlyIfBound => {
-                    match (self.0, input.bindings.shadow_map(0, 0)) {
+                    match (self.0, input.bindings.sampler(0, 0)) {
                         (Reads::OnlyIfBound, Some(_)) => uv.ddx.x,
+                        _ => uv.value.x,
+                    }
+                }
+                Reads::BesideMap | Reads::OnlyWithMap => {
+                    match (self.0, input.bindings.shadow_map(0, 0)) {
+                        (Reads::OnlyWithMap, Some(_)) => uv.ddx.x,
                         _ => uv.value.x,
                     }
                 }
@@ -79,6 +87,13 @@ fn derivatives_are_supplied_if_a_resource_is_missing() {
     for reads in [Reads::BesideMissing, Reads::OnlyIfBound] {
         assert_eq!(found(reads).gradients, [3, 4, 6], "{reads:?}");
     }
+}
+
+/// What is done with a shadow map is tried.
+#[test]
+fn derivatives_are_supplied_if_they_are_used_where_there_is_a_map() {
+    assert_eq!(found(Reads::OnlyWithMap).gradients, [3, 4, 6]);
+    assert_eq!(found(Reads::BesideMap).gradients, [0; 0]);
 }
 
 #[test]

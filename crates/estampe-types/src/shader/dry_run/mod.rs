@@ -5,8 +5,9 @@
 //! bindings, and on questions about masks ([`Real::any`](crate::Real::any)). The dry run is done
 //! with the very value that will draw, so branches on fields are those that will be taken.
 //! Questions are answered in three ways, truly, with yes and with no, so both branches are run.
-//! Nothing is bound, and words of bindings read as 0, 1, 2 and 3 in turn. So uses that depend on
-//! other values, or on a resource that is bound, are not found: constants declare them.
+//! Nothing is bound, and words of bindings read as 0, 1, 2 and 3 in turn; where a shadow map may be
+//! bound there is none, then one of as many texels along a side. So uses that depend on other
+//! values, or on another resource that is bound, are not found: constants declare them.
 //!
 //! * **Outputs** are what the returned value holds: colours, depth, a mask of kept lanes, …
 //! * **Inputs** carry a mark. The first operation on a marked number, or its return, records that

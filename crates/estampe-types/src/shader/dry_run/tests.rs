@@ -1,7 +1,7 @@
 //! Tests of the findings and refusals of dry runs.
 
 use crate::shader::{FragmentIn, FragmentOut, VertexIn, VertexOut, interface_of};
-use crate::{Interface, Quad, ShadowMap, Vec2, Vec4};
+use crate::{Interface, Quad, Vec2, Vec4};
 
 /// The effects of a fragment, apart from its colour.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -207,6 +207,8 @@ enum Shades {
     LooksAtLane,
     AsksAMask,
     DerivesIfBound,
+    DerivesByAMap,
+    ReadsAMap,
     DerivesIfTwo,
     DerivesIfHalf,
     PanicsIfTwo,
@@ -248,7 +250,12 @@ crate::shader! {
                 Shades::AddsQuadLane => FragmentOut::color(color + uv.x.quad_lane(0)),
                 Shades::LooksAtLane => FragmentOut::color(color + uv.x.lane(1)),
                 Shades::AsksAMask if R::any(uv.x.lt(-1.0)) && R::all(uv.y.lt(2.0)) => derived(),
-                Shades::DerivesIfBound if input.bindings.shadow_map(0, 0).is_some() => derived(),
+                Shades::DerivesIfBound if input.bindings.sampler(0, 0).is_some() => derived(),
+                Shades::DerivesByAMap if input.bindings.shadow_map(0, 0).is_some() => derived(),
+                Shades::ReadsAMap => match input.bindings.shadow_map(0, 0) {
+                    Some(map) => FragmentOut::color(color * map.texel(0, 0)),
+                    None => FragmentOut::color(color),
+                },
                 Shades::DerivesIfTwo if integer == 2 => derived(),
                 Shades::PanicsIfTwo if integer == 2 => panic!("only 0, 1 and 3 are bound"),
                 Shades::DerivesIfHalf if input.bindings.f32s::<1>(0, 0, 0)[0] > 0.5 => derived(),
@@ -266,6 +273,7 @@ fn derivatives_are_found() {
         Shades::AddsQuadLane,
         Shades::DerivesIfTwo,
         Shades::DerivesIfHalf,
+        Shades::DerivesByAMap,
     ] {
         assert_eq!(of(shades), Ok(false), "{shades:?}");
     }
@@ -276,6 +284,7 @@ fn derivatives_are_found() {
         Shades::Clamps,
         Shades::Discards,
         Shades::ReadsANumber,
+        Shades::ReadsAMap,
     ] {
         assert_eq!(of(shades), Ok(true), "{shades:?}");
     }
@@ -309,6 +318,7 @@ fn colors_that_are_passed_through_are_found() {
         Shades::Discards,
         Shades::AddsDdx,
         Shades::DerivesIfTwo,
+        Shades::ReadsAMap,
     ] {
         assert_eq!(of(shades), Ok(false), "{shades:?}");
     }
@@ -331,7 +341,7 @@ crate::shader! {
 
         fn fragment<R: Real>(&self, input: FragmentIn<'_, R>, x: R) -> FragmentOut<R> {
             let out = FragmentOut::color(Vec4::repeat(x));
-            match input.bindings.shadow_map(0, 0).map(ShadowMap::width) {
+            match input.bindings.storage_texture(0, 0) {
                 Some(_) => out
                     .with_color(2, input.position)
                     .discard_unless(x.lt(0.5)),
