@@ -3,9 +3,10 @@
 //! The code of a SIMD level is entered once for all packets, and nothing is copied for a packet.
 
 use crate::request::{Request, RequestDetail, stored};
-use crate::view::Answers;
+use crate::view::{Answers, load, packet};
 use crate::{Rgba8Texture, SampledTexture};
-use estampe_simd::{Lanes, Level, Packet, SimdBase, dispatch, f32x16};
+use estampe_simd::{LANES, Lanes, Level, Packet, SimdBase, dispatch, f32x16};
+use estampe_types::{Real, Vec2};
 
 /// Two coordinates and their derivatives for each packet of a batch.
 #[derive(Debug, Clone, Copy)]
@@ -60,6 +61,13 @@ impl<'a> PacketPlaces<'a> {
     #[inline(always)]
     pub(crate) fn packets(&self) -> std::slice::ChunksExact<'a, Packet<f32>> {
         self.scalars.chunks_exact(self.stride.max(1))
+    }
+
+    /// The coordinates of the packet with these scalars.
+    #[inline(always)]
+    fn uv<R: Real>(&self, like: R, scalars: &[Packet<f32>]) -> Vec2<R> {
+        let [u, v] = self.at;
+        Vec2::new(load(like, &scalars[u], 0), load(like, &scalars[v], 0))
     }
 
     /// What the packet with these scalars asks for. Code that samples makes it anew for a function
@@ -134,17 +142,55 @@ fn sample_each_packet(
     }
 }
 
+/// The packets whose levels of detail are found before the first of them is sampled: a batch.
+const AT_ONCE: usize = 16;
+
+/// The levels of detail of some packets, and the guesses of their finer levels.
+///
+/// A level of detail is a logarithm: a chain of operations that takes as long as loading texels
+/// does. Where each packet's came just before its texels, it filled the instructions that the
+/// processor looks ahead, and the texels of the next packet waited.
+struct Details {
+    lods: [Packet<f32>; AT_ONCE],
+    guesses: [i32; AT_ONCE],
+}
+
+impl Details {
+    const NONE: Self = Self {
+        lods: [Packet([0.0; LANES]); AT_ONCE],
+        guesses: [0; AT_ONCE],
+    };
+}
+
 impl Rgba8Texture {
+    /// Finds the levels of detail of packets, at most [`AT_ONCE`].
+    #[inline(always)]
+    fn find_details<S: Lanes>(&self, zero: f32x16<S>, places: &PacketPlaces<'_>, to: &mut Details) {
+        let details = to.lods.iter_mut().zip(&mut to.guesses);
+        for (scalars, (to, to_guess)) in places.packets().zip(details) {
+            let (_, lod, guess) = self.place(&places.request(scalars), zero, 0);
+            (*to, *to_guess) = (packet(lod, 0), guess);
+        }
+    }
+
     /// Samples packets of one texture.
     #[inline(never)]
     fn sample_batch(&self, level: Level, places: &PacketPlaces<'_>, colors: &mut [Answers]) {
         dispatch!(@specialized level, s => {
             let zero: f32x16<_> = SimdBase::splat(s, 0.0);
-            for (scalars, colors) in places.packets().zip(colors.iter_mut()) {
-                let (uv, lod, guess) = self.place(&places.request(scalars), zero, 0);
-                match self.inside(uv, lod, guess) {
-                    Some(inside) => *colors = stored(inside.color(&self.texture, self.is_srgb)),
-                    None => self.sample_rare_place(s.as_level(), (places, scalars), colors),
+            let mut details = Details::NONE;
+            for (places, colors) in places.chunks(AT_ONCE).zip(colors.chunks_mut(AT_ONCE)) {
+                self.find_details(zero, &places, &mut details);
+                let of_packets = details.lods.iter().zip(&details.guesses);
+                let packets = places.packets().zip(colors.iter_mut());
+                for ((scalars, colors), (lod, guess)) in packets.zip(of_packets) {
+                    let uv = places.uv(zero, scalars);
+                    match self.inside(uv, load(zero, lod, 0), *guess) {
+                        Some(inside) => {
+                            *colors = stored(inside.color(&self.texture, self.is_srgb));
+                        }
+                        None => self.sample_rare_place(s.as_level(), (&places, scalars), colors),
+                    }
                 }
             }
         }, others => sample_each_packet(&[self], level, places, colors));
@@ -173,20 +219,26 @@ impl Rgba8Texture {
     ) {
         dispatch!(@specialized level, s => {
             let zero: f32x16<_> = SimdBase::splat(s, 0.0);
-            let packets = places.packets().zip(colors.chunks_mut(textures.len()));
-            for (scalars, colors) in packets {
-                let (uv, lod, guess) = self.place(&places.request(scalars), zero, 0);
-                let Some(inside) = self.inside(uv, lod, guess) else {
-                    self.sample_rare_alike_place(
-                        textures,
-                        s.as_level(),
-                        (places, scalars),
-                        colors,
-                    );
-                    continue;
-                };
-                for (texture, colors) in textures.iter().zip(colors) {
-                    *colors = stored(inside.color(&texture.texture, texture.is_srgb));
+            let mut details = Details::NONE;
+            let each = textures.len();
+            for (places, colors) in places.chunks(AT_ONCE).zip(colors.chunks_mut(AT_ONCE * each)) {
+                self.find_details(zero, &places, &mut details);
+                let of_packets = details.lods.iter().zip(&details.guesses);
+                let packets = places.packets().zip(colors.chunks_mut(each));
+                for ((scalars, colors), (lod, guess)) in packets.zip(of_packets) {
+                    let uv = places.uv(zero, scalars);
+                    let Some(inside) = self.inside(uv, load(zero, lod, 0), *guess) else {
+                        self.sample_rare_alike_place(
+                            textures,
+                            s.as_level(),
+                            (&places, scalars),
+                            colors,
+                        );
+                        continue;
+                    };
+                    for (texture, colors) in textures.iter().zip(colors) {
+                        *colors = stored(inside.color(&texture.texture, texture.is_srgb));
+                    }
                 }
             }
         }, others => sample_each_packet(textures, level, places, colors));
