@@ -179,6 +179,61 @@ impl Rgba8Texture {
         }, scalar => *colors = self.sample_each(request));
     }
 
+    /// Samples all lanes of two packets.
+    #[inline(always)]
+    pub(crate) fn sample_two_packets<R: Real>(
+        &self,
+        level: Level,
+        uv: Vec2<R>,
+        detail: Detail<R>,
+    ) -> [Answers; 2] {
+        let mut colors = [Answers::default(); 2];
+        Request::with(
+            uv,
+            detail,
+            0,
+            #[inline(always)]
+            |first| {
+                Request::with(
+                    uv,
+                    detail,
+                    LANES,
+                    #[inline(always)]
+                    |second| self.sample_requests(level, [first, second], &mut colors),
+                );
+            },
+        );
+        colors
+    }
+
+    /// Samples two packets: their levels of detail are found first, so that neither's texels wait
+    /// for the other's level of detail.
+    #[inline(never)]
+    fn sample_requests(
+        &self,
+        level: Level,
+        requests: [&Request<'_>; 2],
+        colors: &mut [Answers; 2],
+    ) {
+        dispatch!(@wide level, s => {
+            let zero: f32x16<_> = SimdBase::splat(s, 0.0);
+            let [a, b] = requests;
+            let details = [self.place(a, zero, 0), self.place(b, zero, 0)];
+            for ((uv, lod, guess), (request, colors)) in
+                details.into_iter().zip(requests.into_iter().zip(colors))
+            {
+                match self.inside(uv, lod, guess) {
+                    Some(inside) => *colors = stored(inside.color(&self.texture, self.is_srgb)),
+                    None => self.sample_rare_packet(s.as_level(), request, colors),
+                }
+            }
+        }, scalar => {
+            for (request, colors) in requests.into_iter().zip(colors) {
+                *colors = self.sample_each(request);
+            }
+        });
+    }
+
     /// Samples a packet that is not the common case.
     #[inline(never)]
     pub(crate) fn sample_rare_packet(

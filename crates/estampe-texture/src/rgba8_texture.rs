@@ -172,6 +172,12 @@ impl Rgba8Texture {
     /// shader.
     #[inline(always)]
     fn request<R: Real>(&self, uv: Vec2<R>, detail: Detail<R>) -> Vec4<R> {
+        if R::LANES == 2 * LANES
+            && let Some(level) = uv.x.level()
+        {
+            let [first, second] = &self.sample_two_packets(level, uv, detail);
+            return packed(uv.x, [first, second, first, second]);
+        }
         by_sixteen(
             uv.x,
             #[inline(always)]
