@@ -1,7 +1,6 @@
 //! Lists of fragments that fill packets, pixel by pixel.
 
 use crate::fragment::fill::{LANE_NUMBERS, samples_of};
-use crate::fragment::quad::QUAD;
 use crate::raster::Covered;
 use crate::raster::small::PIXELS;
 use estampe_simd::{LANES, Lanes, SimdBase, u32x16};
@@ -80,33 +79,6 @@ impl Fragments {
         let places = u32x16::load_array(s, LANE_NUMBERS) + u32::from(covered.packet) * 16;
         let pixels = <u32x16<S> as SimdBase<S>>::splat(s, pixel_of(lane));
         self.add(s, covered.any(), [pixels, places, samples]);
-    }
-
-    /// Adds the pixels of a quad of the tile, packet·4 + quad, that shows the triangle of a lane;
-    /// masks, one for each sample, say which of them do.
-    #[inline(always)]
-    #[expect(clippy::cast_possible_truncation, reason = "four")]
-    pub(super) fn add_quad<S: Lanes, const N: usize>(
-        &mut self,
-        s: S,
-        lane: u8,
-        (place, masks): (u16, [u16; N]),
-    ) {
-        let splat = |value| <u32x16<S> as SimdBase<S>>::splat(s, value);
-        let samples = samples_of(s, &masks, true);
-        let places = u32x16::load_array(s, LANE_NUMBERS) + u32::from(place) * QUAD as u32;
-        // Sixteen are written, of which the next ones take the place of all but four.
-        let lists = [&mut self.pixels, &mut self.places, &mut self.samples];
-        for (list, values) in lists
-            .into_iter()
-            .zip([splat(pixel_of(lane)), places, samples])
-        {
-            if let Some(to) = chunk_from(list, Self::FIRST + self.len) {
-                values.store_array(to);
-            }
-        }
-        self.len += QUAD;
-        debug_assert!(self.len <= Self::MOST, "{} fragments", self.len);
     }
 
     /// Sixteen fragments: pixels, places, samples. The lane of fragment `from` is `lane`.

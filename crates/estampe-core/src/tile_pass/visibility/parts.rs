@@ -47,12 +47,6 @@ impl<const N: usize> Parts<N> {
         self.parts.is_empty()
     }
 
-    /// By visibility id: the number of the triangle's last part, or [`NONE`].
-    #[inline(always)]
-    pub(super) fn last(&self) -> &[u32] {
-        &self.last
-    }
-
     /// Adds a triangle's part of a packet.
     #[inline(always)]
     #[expect(

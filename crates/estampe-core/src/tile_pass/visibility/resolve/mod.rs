@@ -1,10 +1,10 @@
 //! The end of a run: every visible sample is shaded once, by the triangle that it shows.
 //!
 //! A packet that shows one triangle is shaded whole. Of others each triangle's quads are shaded in
-//! packets that they share with those of other triangles and places (`pixels.rs`), or, if fragments
-//! need no quads, its pixels. Where smaller triangles may show was noted when they were covered,
-//! and is asked first (`touched.rs`). Draws that share a pipeline and bindings are shaded together,
-//! and those of one colour come first.
+//! packets that they share with those of other triangles and places (`quads.rs`), or, if fragments
+//! need no quads, its pixels (`pixels.rs`). Where smaller triangles may show was noted when they
+//! were covered, and is asked first (`touched.rs`). Draws that share a pipeline and bindings are
+//! shaded together, and those of one colour come first.
 
 mod early;
 mod groups;
@@ -12,6 +12,7 @@ mod ids;
 mod per_draw;
 mod per_primitive;
 mod pixels;
+mod quads;
 mod touched;
 mod visible;
 
@@ -41,6 +42,9 @@ pub(super) const NONE: u32 = u32::MAX;
 
 /// Parts of packets with as many pixels are shaded alone, of triangles whose packets are not noted.
 const FEW_IDLE: u32 = 13;
+
+/// All quads of a packet, by their first lanes.
+const ALL_QUADS: u16 = 0x1111;
 
 /// Lines of the next tile that are prefetched for a visible packet, at most.
 const MOST_AHEAD: usize = 8;
@@ -115,7 +119,6 @@ pub(in crate::tile_pass) fn resolve<const N: usize>(
         resolve.texels.clear();
         resolve.visible_of.clear();
         resolve.visible_of.resize(buffer.triangles.len(), NONE);
-        resolve.quads.begin_run(buffer.triangles.len());
         if const { N <= 4 } {
             resolve.parts.begin_run(buffer.triangles.len());
         }
@@ -236,10 +239,12 @@ impl<'a, 'j, 't, const N: usize> Resolver<'a, 'j, 't, N> {
         dispatch!(@wide level, s => self.packets(s, group, packets),
             scalar => unreachable!("{ONLY_WIDE}"));
         let resolve = &self.scratch.visibility.resolve;
-        let [has_quads, has_parts] = [!resolve.quads.is_empty(), !resolve.parts.is_empty()];
-        if has_quads || has_parts {
-            // A shader needs quads, or not.
-            dispatch!(@wide level, s => self.noted(s, group, has_quads),
+        // A shader needs quads, or not.
+        if !resolve.quads.is_empty() {
+            dispatch!(@wide level, s => self.listed_quads(s, group),
+                scalar => unreachable!("{ONLY_WIDE}"));
+        } else if !resolve.parts.is_empty() {
+            dispatch!(@wide level, s => self.noted_parts(s, group),
                 scalar => unreachable!("{ONLY_WIDE}"));
         }
         self.flush();
@@ -253,6 +258,7 @@ impl<'a, 'j, 't, const N: usize> Resolver<'a, 'j, 't, N> {
         if const { N <= 4 } && key.needs_no_quads && !per_primitive {
             self.touched(s, group);
         }
+        let lists_quads = const { N == 1 } && !key.needs_no_quads && !per_primitive;
         let visible = packets.iter().map(|packets| packets.count_ones() as usize);
         let lines = self.job.next.len().div_ceil(visible.sum::<usize>().max(1));
         let lines = lines.min(MOST_AHEAD);
@@ -274,6 +280,10 @@ impl<'a, 'j, 't, const N: usize> Resolver<'a, 'j, 't, N> {
                     Some(_) => continue,
                     None => self.take_unresolved(s, number, group),
                 };
+                if lists_quads && single.is_none() {
+                    self.list_quads(s, number, left);
+                    continue;
+                }
                 while left != [0; N] {
                     let (id, covered) = match single {
                         Some(id) => (id, std::mem::replace(&mut left, [0; N])),
@@ -305,12 +315,18 @@ impl<'a, 'j, 't, const N: usize> Resolver<'a, 'j, 't, N> {
             self.scratch.visibility.resolve.parts.add(id, *covered);
             return;
         }
-        let quads = (any | any >> 1 | any >> 2 | any >> 3) & 0x1111;
-        if quads != 0x1111 && !(const { N <= 4 } && needs_no_quads) {
+        let quads = quads_of(any);
+        if quads != ALL_QUADS && !(const { N <= 4 } && needs_no_quads) {
             let resolve = &mut self.scratch.visibility.resolve;
             resolve.quads.add(id, *covered, quads);
             return;
         }
+        self.queue_whole(s, id, covered);
+    }
+
+    /// Queues a packet of a triangle.
+    #[inline(always)]
+    fn queue_whole<S: Lanes>(&mut self, s: S, id: u32, covered: &Covered<N>) {
         let visible = self.visible(s, id);
         if self.scratch.queue.is_full() {
             self.flush();
@@ -350,4 +366,10 @@ impl<'a, 'j, 't, const N: usize> Resolver<'a, 'j, 't, N> {
         write_colors(self.plan, level, &batch, &mut self.job.colors);
         queue.clear();
     }
+}
+
+/// The quads of which some lane is among these, by their first lanes.
+#[inline(always)]
+fn quads_of(lanes: u16) -> u16 {
+    (lanes | lanes >> 1 | lanes >> 2 | lanes >> 3) & ALL_QUADS
 }

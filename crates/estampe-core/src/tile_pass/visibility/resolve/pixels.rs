@@ -1,8 +1,8 @@
 //! Packets whose lanes are pixels, or quads, of several triangles, anywhere in the tile.
 //!
-//! What packets that show several triangles hold of each was noted: its quads; or, if fragments
-//! need no quads, its pixels. Of four samples, two triangles may show at one pixel, so a packet of
-//! 4×4 pixels has more than sixteen fragments where triangles meet.
+//! If fragments need no quads, what packets that show several triangles hold of each was noted: its
+//! pixels. Of four samples, two triangles may show at one pixel, so a packet of 4×4 pixels has more
+//! than sixteen fragments where triangles meet.
 //!
 //! The triangles of a packet of geometry are taken together: their planes are made in lanes, and
 //! their fragments fill packets, of which each lane permutes the planes of its triangle. Triangle
@@ -15,7 +15,6 @@ use crate::fragment::cross_triangle::{Row, bits_of_row};
 use crate::fragment::fill::{lanes_between, masks_of};
 use crate::fragment::interpolate::VaryingSource;
 use crate::fragment::interpolate::WindowPixels;
-use crate::fragment::quad::QUAD;
 use crate::fragment::queue::{PixelPacket, replace};
 use crate::raster::pixel_list::Pixels;
 use crate::tile_pass::fragments::Fragments;
@@ -24,88 +23,93 @@ use crate::tile_pass::{TileScratch, varyings_of};
 use estampe_simd::{LANES, Lanes, SimdBase, SimdCvtFloat, f32x16, i32x16, u32x16};
 use std::ops::Range;
 
-/// A packet of triangles, and what is noted of them.
+/// A packet of triangles, and what is read of their vertices.
 pub(super) struct NotedTriangles<'a> {
     pub(super) triangles: &'a TrianglePacket,
     pub(super) source: VaryingSource<'a>,
-    /// True if quads are noted, not pixels.
+}
+
+/// Fragments of some lanes of a packet.
+pub(super) struct PushedLanes<'a, S: Lanes, const N: usize> {
+    /// Which of the triangles' pixels they are; where they are in the tile.
+    pub(super) pixels: Pixels<S>,
+    pub(super) places: &'a [u32; LANES],
+    /// By sample, those that are covered.
+    pub(super) masks: [u16; N],
+    /// True if they are quads.
     pub(super) are_quads: bool,
 }
 
-impl<const N: usize> Resolver<'_, '_, '_, N> {
-    /// Queues what was noted of a group's triangles, packet by packet.
+impl<'a, const N: usize> Resolver<'a, '_, '_, N> {
+    /// Queues the parts that were noted of a group's triangles, packet by packet.
     #[inline(always)]
-    pub(super) fn noted<S: Lanes>(&mut self, s: S, group: &ShadingGroup, are_quads: bool) {
+    pub(super) fn noted_parts<S: Lanes>(&mut self, s: S, group: &ShadingGroup) {
         let mut ids = group.ids.clone();
-        while let Some((range, lanes)) = self.next_noted(&mut ids, are_quads) {
-            let first = self.scratch.visibility.buffer.triangles[range.start as usize];
-            let chunk = &self.pass.chunks[first.chunk as usize];
-            let plan = &self.pass.plans[first.sub_draw as usize];
-            let noted = NotedTriangles {
-                triangles: &chunk.triangles[first.packet as usize],
-                source: varyings_of(chunk, plan),
-                are_quads,
+        loop {
+            let parts = &self.scratch.visibility.resolve.parts;
+            let Some((of_packet, lanes)) = self.next_noted(&mut ids, |id| parts.begin(id) != NONE)
+            else {
+                break;
             };
+            let noted = self.noted_triangles(of_packet.start);
             let planes = &mut self.scratch.visibility.resolve.cross;
             planes.set(s, noted.triangles, lanes, &noted.source);
-            self.list(s, range, &noted);
+            self.list_parts(s, of_packet, &noted);
+        }
+    }
+
+    /// The packet of a triangle.
+    #[inline(always)]
+    pub(super) fn noted_triangles(&self, id: u32) -> NotedTriangles<'a> {
+        let triangle = self.scratch.visibility.buffer.triangles[id as usize];
+        let chunk = &self.pass.chunks[triangle.chunk as usize];
+        let plan = &self.pass.plans[triangle.sub_draw as usize];
+        NotedTriangles {
+            triangles: &chunk.triangles[triangle.packet as usize],
+            source: varyings_of(chunk, plan),
         }
     }
 
     /// The ids of the next triangles of one packet and sub-draw of which something is noted, and
     /// their lanes; takes them out.
     #[inline(always)]
-    fn next_noted(&self, ids: &mut Range<u32>, are_quads: bool) -> Option<(Range<u32>, u16)> {
-        let VisibilityScratch {
-            buffer, resolve, ..
-        } = &self.scratch.visibility;
-        let last = match are_quads {
-            true => resolve.quads.last(),
-            false => resolve.parts.last(),
-        };
-        let last = last.get(..ids.end as usize).unwrap_or_default();
-        let is_noted = |id: usize| last.get(id).is_some_and(|last| *last != NONE);
-        let mut id = ids.start as usize;
-        while id < last.len() && !is_noted(id) {
-            id += 1;
+    pub(super) fn next_noted(
+        &self,
+        ids: &mut Range<u32>,
+        is_noted: impl Fn(u32) -> bool,
+    ) -> Option<(Range<u32>, u16)> {
+        let triangles = &self.scratch.visibility.buffer.triangles;
+        while ids.start < ids.end && !is_noted(ids.start) {
+            ids.start += 1;
         }
-        let first = *buffer.triangles.get(..last.len())?.get(id)?;
-        let (begin, mut lanes) = (id, 0);
-        while let Some(triangle) = buffer.triangles[..last.len()].get(id)
-            && triangle.shares_packet_with(&first)
-        {
-            lanes |= u16::from(is_noted(id)) << triangle.lane;
-            id += 1;
+        let begin = ids.start;
+        let of_group = triangles.get(begin as usize..ids.end as usize)?;
+        let first = of_group.first()?;
+        let mut lanes = 0;
+        for triangle in of_group {
+            if !triangle.shares_packet_with(first) {
+                break;
+            }
+            lanes |= u16::from(is_noted(ids.start)) << triangle.lane;
+            ids.start += 1;
         }
-        #[expect(clippy::cast_possible_truncation, reason = "ids have 31 bits")]
-        let (begin, end) = (begin as u32, id as u32);
-        ids.start = end;
-        Some((begin..end, lanes))
+        Some((begin..ids.start, lanes))
     }
 
-    /// Lists what is noted of triangles whose planes are set, and queues it.
+    /// Lists the parts of triangles whose planes are set, and queues them.
     #[inline(always)]
-    fn list<S: Lanes>(&mut self, s: S, ids: Range<u32>, noted: &NotedTriangles<'_>) {
+    fn list_parts<S: Lanes>(&mut self, s: S, ids: Range<u32>, noted: &NotedTriangles<'_>) {
         for id in ids {
             let VisibilityScratch {
                 buffer, resolve, ..
             } = &mut self.scratch.visibility;
             let lane = buffer.triangles[id as usize].lane;
-            let mut next = match noted.are_quads {
-                true => resolve.quads.begin(id),
-                false => resolve.parts.begin(id),
-            };
+            let mut next = resolve.parts.begin(id);
             while next != NONE {
                 let resolve = &mut self.scratch.visibility.resolve;
-                if noted.are_quads {
-                    let (quad, rest) = resolve.quads.quad(next);
-                    next = rest;
-                    resolve.fragments.add_quad(s, lane, quad);
-                } else {
-                    let (covered, rest) = resolve.parts.part(next);
-                    next = rest;
-                    resolve.fragments.add_packet(s, lane, covered);
-                }
+                let (covered, rest) = resolve.parts.part(next);
+                next = rest;
+                resolve.fragments.add_packet(s, lane, covered);
                 if resolve.fragments.len() > Fragments::MOST - LANES {
                     self.fill_packets(s, noted);
                 }
@@ -122,11 +126,7 @@ impl<const N: usize> Resolver<'_, '_, '_, N> {
             return;
         }
         self.scratch.visibility.resolve.fragments.end();
-        let statistics = &mut self.scratch.statistics;
-        match noted.are_quads {
-            true => statistics.quads_across_triangles += (count / QUAD) as u64,
-            false => statistics.fragments_by_pixels += count as u64,
-        }
+        self.scratch.statistics.fragments_by_pixels += count as u64;
         let mut next = 0;
         while next < count {
             let used = self.scratch.queue.open_pixels();
@@ -134,38 +134,44 @@ impl<const N: usize> Resolver<'_, '_, '_, N> {
                 self.flush();
             }
             let end = LANES.min(used + count - next);
-            self.push_sixteen(s, noted, next, [used, end]);
+            let fragments = &self.scratch.visibility.resolve.fragments;
+            let [pixels, places, samples] = fragments.sixteen(next, used);
+            let (places, lanes) = (*places, lanes_between(used, end));
+            let pushed = PushedLanes {
+                pixels: Pixels(u32x16::load_array_ref(s, pixels)),
+                places: &places,
+                // Two triangles at one pixel have different samples, in whatever order.
+                masks: masks_of(s, samples, lanes, false),
+                are_quads: false,
+            };
+            self.push_lanes(s, noted, lanes, &pushed);
             next += end - used;
         }
         self.scratch.visibility.resolve.fragments.clear();
     }
 
-    /// Queues listed fragments from one on, in the lanes of a packet from one on up to another.
+    /// Queues fragments of triangles whose planes are set.
     #[inline(always)]
-    fn push_sixteen<S: Lanes>(
+    pub(super) fn push_lanes<S: Lanes>(
         &mut self,
         s: S,
         noted: &NotedTriangles<'_>,
-        first: usize,
-        [used, end]: [usize; 2],
+        lanes: u16,
+        pushed: &PushedLanes<'_, S, N>,
     ) {
         let TileScratch {
             queue, visibility, ..
         } = &mut *self.scratch;
-        let resolve = &visibility.resolve;
-        let [pixels, places, samples] = resolve.fragments.sixteen(first, used);
-        let lanes = lanes_between(used, end);
+        let (triangles, places) = (noted.triangles, pushed.places);
         let row = Row {
-            pixels: Pixels(u32x16::load_array_ref(s, pixels)),
+            pixels: pushed.pixels,
             lanes,
-            is_open: used != 0,
+            is_open: lanes & 1 == 0,
         };
-        let triangles = noted.triangles;
-        // Two triangles at one pixel have different samples, in whatever order.
         let packet = PixelPacket {
             places,
-            are_quads: noted.are_quads,
-            masks: masks_of(s, samples, lanes, noted.are_quads),
+            are_quads: pushed.are_quads,
+            masks: pushed.masks,
             front: bits_of_row(s, triangles.front, row),
         };
         let inputs = queue.push_pixels(&packet, lanes);
@@ -177,7 +183,7 @@ impl<const N: usize> Resolver<'_, '_, '_, N> {
             x - origin_of(s, &triangles.x[0], lane),
             y - origin_of(s, &triangles.y[0], lane),
         ];
-        let planes = &resolve.cross;
+        let planes = &visibility.resolve.cross;
         planes.varyings(s, row, &noted.source, distances, inputs.varyings);
         if let Some([to_x, to_y, to_z, to_w]) = inputs.position {
             let set = inputs.lanes;

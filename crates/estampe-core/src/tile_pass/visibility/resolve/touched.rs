@@ -6,7 +6,6 @@ use super::pixels::NotedTriangles;
 use super::{Resolver, ShadingGroup};
 use crate::raster::Covered;
 use crate::tile_pass::fragments::Fragments;
-use crate::tile_pass::varyings_of;
 use estampe_simd::{LANES, Lanes};
 
 impl<const N: usize> Resolver<'_, '_, '_, N> {
@@ -17,13 +16,7 @@ impl<const N: usize> Resolver<'_, '_, '_, N> {
         let mut number = touched.from(group.ids.start);
         while let Some((id, _)) = touched.before(number, group.ids.end) {
             let first = self.scratch.visibility.buffer.triangles[id as usize];
-            let chunk = &self.pass.chunks[first.chunk as usize];
-            let plan = &self.pass.plans[first.sub_draw as usize];
-            let noted = NotedTriangles {
-                triangles: &chunk.triangles[first.packet as usize],
-                source: varyings_of(chunk, plan),
-                are_quads: false,
-            };
+            let noted = self.noted_triangles(id);
             // The triangles of the same packet, all that are shown.
             let mut lanes = 0;
             while let Some((id, packets)) = touched.before(number, group.ids.end) {
