@@ -1,7 +1,7 @@
 //! Permutations whose order is known at run time, and lists of the bits of a mask.
 
 use crate::LANES;
-use fearless_simd::{Simd, SimdBase, u32x16};
+use fearless_simd::{Simd, SimdBase, SimdCombine, u16x16, u32x16};
 
 /// The numbers of the bits that are set in each byte, in ascending order.
 static SET_BITS: [[u8; 8]; 256] = {
@@ -55,6 +55,32 @@ pub(crate) fn list_by_table(bits: u16, first: u32, out: &mut [u32; LANES]) -> us
     bits.count_ones() as usize
 }
 
+/// [`Lanes::list_bits_of_word`](crate::Lanes::list_bits_of_word) by a table of bytes.
+#[inline(always)]
+pub(crate) fn list_word_by_table(bits: u32, first: u16, out: &mut [u16; 32]) -> usize {
+    let (mut from, mut before) = (0, first);
+    for byte in bits.to_le_bytes() {
+        let Some(out) = out.get_mut(from..from + 8) else {
+            unreachable!("a byte has eight bits");
+        };
+        let mut number = 0;
+        while number < 8 {
+            out[number] = before + u16::from(SET_BITS[usize::from(byte)][number]);
+            number += 1;
+        }
+        from += byte.count_ones() as usize;
+        before += 8;
+    }
+    from
+}
+
+/// [`Lanes::widen`](crate::Lanes::widen) by halves.
+#[inline(always)]
+pub(crate) fn widen_halves<S: Simd>(simd: S, values: &[u16; LANES]) -> u32x16<S> {
+    let (low, high) = simd.widen_u16x16(u16x16::load_array_ref(simd, values));
+    low.combine(high)
+}
+
 #[cfg(target_arch = "x86_64")]
 pub(crate) use x86::*;
 
@@ -63,7 +89,8 @@ mod x86 {
     use super::LANES;
     use fearless_simd::x86::{Avx2, Avx512};
     use fearless_simd::{
-        SimdBase, SimdCombine, SimdInto, SimdMask, SimdSplit, mask32x16, u32x8, u32x16,
+        SimdBase, SimdCombine, SimdInto, SimdMask, SimdSplit, mask16x32, mask32x16, u16x16, u16x32,
+        u32x8, u32x16,
     };
 
     #[inline(always)]
@@ -139,5 +166,39 @@ mod x86 {
         let numbers = u32x16::load_array(simd, NUMBERS).compress(mask);
         (numbers + u32x16::splat(simd, first)).store_array(out);
         bits.count_ones() as usize
+    }
+
+    #[inline(always)]
+    pub(crate) fn list_word_avx512(
+        simd: Avx512,
+        bits: u32,
+        first: u16,
+        out: &mut [u16; 32],
+    ) -> usize {
+        const NUMBERS: [u16; 32] = {
+            let mut numbers = [0; 32];
+            let mut bit = 0;
+            while bit < 32 {
+                numbers[bit as usize] = bit;
+                bit += 1;
+            }
+            numbers
+        };
+        let mask = mask16x32::from_bitmask(simd, u64::from(bits));
+        let numbers = u16x32::load_array(simd, NUMBERS).compress(mask);
+        (numbers + u16x32::splat(simd, first)).store_array(out);
+        bits.count_ones() as usize
+    }
+
+    #[inline(always)]
+    pub(crate) fn widen_avx512(simd: Avx512, values: &[u16; LANES]) -> u32x16<Avx512> {
+        fearless_simd::kernel!(
+            #[inline(always)]
+            fn kernel(simd: Avx512, values: u16x16<Avx512>) -> u32x16<Avx512> {
+                use core::arch::x86_64::*;
+                _mm512_cvtepu16_epi32(values.into()).simd_into(simd)
+            }
+        );
+        kernel(simd, u16x16::load_array_ref(simd, values))
     }
 }

@@ -10,14 +10,16 @@ use estampe_simd::{Bytes, LANES, Lanes, Select, SimdBase, i32x16, u32x16};
 
 /// Pixels of a packet's triangles, at most.
 const MOST: usize = LANES * PIXELS;
+/// Pixels of half of a box.
+const FOUR_ROWS: usize = PIXELS / 2;
 
 /// Covered pixels of sixteen small triangles, in the order of the triangles' lanes.
 #[derive(Debug)]
 #[repr(C, align(64))]
 pub(crate) struct PixelList {
-    /// Which pixels they are: see [`Pixels`]. Sixteen at a time are written, so there is room
-    /// behind the last one.
-    pixels: [u32; MOST + LANES],
+    /// Which pixels they are: see [`Pixels`]. The pixels of four rows are written at a time, so
+    /// there is room behind the last one.
+    pixels: [u16; MOST + FOUR_ROWS],
     /// Where each is in the tile.
     places: [u32; MOST],
     /// Its depth, as it is stored.
@@ -63,7 +65,7 @@ pub(crate) fn lane_of(pixel: u32) -> usize {
 impl Default for PixelList {
     fn default() -> Self {
         Self {
-            pixels: [0; MOST + LANES],
+            pixels: [0; MOST + FOUR_ROWS],
             places: [0; MOST],
             depths: [0.0; MOST],
             len: 0,
@@ -78,10 +80,10 @@ impl PixelList {
         self.len
     }
 
-    /// Lists the pixels whose bits are set, of `GROUPS` times two rows of the boxes in `lanes`.
+    /// Lists the pixels whose bits are set, of `HALVES` times four rows of the boxes in `lanes`.
     #[inline(always)]
-    #[expect(clippy::cast_possible_truncation, reason = "sixteen bits at a time")]
-    pub(super) fn fill<S: Lanes, const GROUPS: usize>(
+    #[expect(clippy::cast_possible_truncation, reason = "a list has 1024 pixels")]
+    pub(super) fn fill<S: Lanes, const HALVES: usize>(
         &mut self,
         s: S,
         covered: &[[u32; LANES]; 2],
@@ -90,17 +92,14 @@ impl PixelList {
         let mut len = 0;
         let [upper, lower] = covered;
         for (lane, (upper, lower)) in upper.iter().zip(lower).enumerate() {
-            let listed = 0u16.wrapping_sub(lanes >> lane & 1);
-            for group in 0..GROUPS {
-                let bits = ([upper, lower][group / 2] >> (group % 2 * 16)) as u16 & listed;
-                let Some(out) = self
-                    .pixels
-                    .get_mut(len..)
-                    .and_then(<[u32]>::first_chunk_mut)
-                else {
+            let listed = 0u32.wrapping_sub(u32::from(lanes >> lane & 1));
+            for (half, bits) in [upper, lower].into_iter().take(HALVES).enumerate() {
+                let out = self.pixels.get_mut(len..);
+                let Some(out) = out.and_then(<[u16]>::first_chunk_mut) else {
                     unreachable!("{len} pixels of sixteen small triangles");
                 };
-                len += s.list_bits(bits, (lane * PIXELS + group * 16) as u32, out);
+                let first = (lane * PIXELS + half * FOUR_ROWS) as u16;
+                len += s.list_bits_of_word(bits & listed, first, out);
             }
         }
         self.len = len;
@@ -109,8 +108,8 @@ impl PixelList {
     /// Sixteen pixels from one on; those behind the last are unspecified, but pixels.
     #[inline(always)]
     pub(crate) fn sixteen<S: Lanes>(&self, s: S, from: usize) -> Pixels<S> {
-        let sixteen = self.pixels.get(from..).and_then(<[u32]>::first_chunk);
-        Pixels(u32x16::load_array_ref(s, sixteen.unwrap_or(&[0; LANES])))
+        let sixteen = self.pixels.get(from..).and_then(<[u16]>::first_chunk);
+        Pixels(s.widen(sixteen.unwrap_or(&[0; LANES])))
     }
 
     /// The pixels of four quads, from that of a listed pixel on, which are their first ones.
@@ -159,13 +158,19 @@ impl PixelList {
     pub(crate) fn iter(&self) -> impl Iterator<Item = (u32, usize, f32)> {
         // By index, so that one counter serves the three lists.
         let all = 0..self.len.min(MOST);
-        all.map(move |at| (self.pixels[at], self.places[at] as usize, self.depths[at]))
+        all.map(move |at| {
+            (
+                u32::from(self.pixels[at]),
+                self.places[at] as usize,
+                self.depths[at],
+            )
+        })
     }
 }
 
 /// See [`PixelList::sixteens`].
 type Sixteen<'a> = (
-    &'a [u32; LANES],
+    &'a [u16; LANES],
     (&'a mut [u32; LANES], &'a mut [f32; LANES]),
 );
 

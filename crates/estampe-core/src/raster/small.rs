@@ -328,11 +328,10 @@ impl<const N: usize> SmallBoxes<N> {
         lanes: u16,
         list: &mut PixelList,
     ) {
-        // Two rows of a box are sixteen bits.
+        // Four rows of a box are a word.
         match self.rows {
-            0..=2 => list.fill::<S, 1>(s, covered, lanes),
-            3..=4 => list.fill::<S, 2>(s, covered, lanes),
-            _ => list.fill::<S, 4>(s, covered, lanes),
+            0..=4 => list.fill::<S, 1>(s, covered, lanes),
+            _ => list.fill::<S, 2>(s, covered, lanes),
         }
     }
 
@@ -398,7 +397,7 @@ impl<const N: usize> SmallBoxes<N> {
             [0, 1].map(|axis| offsets[sample % N][axis] - offsets[0][axis]);
         let line = <u32x16<S> as SimdBase<S>>::splat(s, (sample * LANES) as u32);
         for (pixels, (places, depths)) in list.sixteens() {
-            let pixels = Pixels(u32x16::load_array_ref(s, pixels));
+            let pixels = Pixels(s.widen(pixels));
             let [mut x, mut y] = self.distances(s, pixels);
             if const { N > 1 } {
                 (x, y) = (x + from_first_x, y + from_first_y);

@@ -165,6 +165,18 @@ pub trait Lanes: Simd {
         crate::permute::list_by_table(bits, first, out)
     }
 
+    /// [`list_bits`](Self::list_bits) of 32 bits, as half words.
+    #[inline(always)]
+    fn list_bits_of_word(self, bits: u32, first: u16, out: &mut [u16; 32]) -> usize {
+        crate::permute::list_word_by_table(bits, first, out)
+    }
+
+    /// Half words as words.
+    #[inline(always)]
+    fn widen(self, values: &[u16; 16]) -> u32x16<Self> {
+        crate::permute::widen_halves(self, values)
+    }
+
     /// Those of some lanes whose value an earlier one of them has, if the level has an instruction
     /// for it.
     #[inline(always)]

@@ -278,6 +278,14 @@ impl Lanes for Avx512 {
         crate::permute::list_avx512(self, bits, first, out)
     }
     #[inline(always)]
+    fn list_bits_of_word(self, bits: u32, first: u16, out: &mut [u16; 32]) -> usize {
+        crate::permute::list_word_avx512(self, bits, first, out)
+    }
+    #[inline(always)]
+    fn widen(self, values: &[u16; 16]) -> u32x16<Self> {
+        crate::permute::widen_avx512(self, values)
+    }
+    #[inline(always)]
     fn repeats(self, value: u32x16<Self>, lanes: u16) -> Option<u16> {
         Some(crate::permute::repeats_avx512(self, value, lanes))
     }

@@ -138,6 +138,33 @@ fn bits_are_listed_in_ascending_order() {
     }
 }
 
+#[test]
+fn bits_of_words_are_listed_in_ascending_order() {
+    let mut state = 7_u32;
+    let mut random = || {
+        state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        state ^ state >> 16
+    };
+    for level in Level::all_available() {
+        for turn in 0..2000 {
+            let bits = match turn {
+                0 => 0,
+                1 => u32::MAX,
+                _ if turn % 2 == 0 => random() & random(),
+                _ => random() | random(),
+            };
+            let mut out = [u16::MAX; 32];
+            let count = dispatch!(level, s => s.list_bits_of_word(bits, 992, &mut out));
+            let expected: Vec<u16> = (0..32).filter(|bit| bits >> bit & 1 == 1).collect();
+            let expected: Vec<u16> = expected.into_iter().map(|bit| 992 + bit).collect();
+            assert_eq!(out[..count], expected, "{bits:#x} at {}", level.name());
+            let half = out.first_chunk().unwrap();
+            let wide = dispatch!(level, s => s.widen(half).to_array());
+            assert_eq!(wide, half.map(u32::from), "{}", level.name());
+        }
+    }
+}
+
 #[inline(always)]
 fn round_trip<S: Lanes>(s: S, bits: u16) -> u16 {
     s.bits_of_mask(s.mask_from_bits(bits))
