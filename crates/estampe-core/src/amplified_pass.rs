@@ -4,7 +4,7 @@
 use crate::amplification::amplify::Amplifier;
 use crate::amplification::piece::Piece;
 use crate::attachment::RenderTarget;
-use crate::commands::{Discards, Draw, LoadOp, PassControl, RenderPass, ViewportScissor};
+use crate::commands::{Discards, Draw, DrawList, LoadOp, PassControl, RenderPass, ViewportScissor};
 use crate::draw::{Context, Memory};
 use crate::plan::pass_check::RenderPassError;
 use crate::statistics::Statistics;
@@ -17,6 +17,7 @@ const WAITING_WORDS: usize = 1 << 24;
 /// Draws of a pass that wait until they are drawn together.
 struct Waiting<'a> {
     pass: &'a RenderPass<'a>,
+    draws: Vec<&'a Draw<'a>>,
     entries: Vec<Entry>,
     /// Words of the pieces.
     words: usize,
@@ -40,6 +41,7 @@ impl Context {
     ) -> Result<Statistics, RenderPassError> {
         let mut waiting = Waiting {
             pass,
+            draws: pass.draws.iter().collect(),
             entries: Vec::new(),
             words: 0,
             is_first: true,
@@ -123,7 +125,6 @@ impl Waiting<'_> {
         (layer, target): (u32, &mut RenderTarget),
         memory: &mut Memory,
     ) -> Result<Statistics, RenderPassError> {
-        let all = self.pass.draws;
         let entries = self.entries.iter().filter(|entry| entry.layer() == layer);
         let entries: Vec<&Entry> = entries.collect();
         if entries.is_empty() && !self.is_first {
@@ -131,12 +132,12 @@ impl Waiting<'_> {
         }
         let draws: Vec<Draw<'_>> = entries
             .iter()
-            .map(|entry| entry.as_drawn(&all[entry.draw]))
+            .map(|entry| entry.as_drawn(self.draws[entry.draw]))
             .collect();
         let begun = |draws: usize, _: usize| {
             let last = draws.checked_sub(1).and_then(|at| entries.get(at));
             let begun = last.map_or(0, |entry| entry.draw + 1);
-            self.pass.control.report(begun, all.len());
+            self.pass.control.report(begun, self.draws.len());
         };
         let mut part = RenderPass {
             control: PassControl {
@@ -144,7 +145,7 @@ impl Waiting<'_> {
                 progress: (layer == 0).then_some(&begun),
                 ..self.pass.control
             },
-            draws: &draws,
+            draws: DrawList::Whole(&draws),
             // The next part goes on with the same images.
             discards: Discards::default(),
             ..self.pass.clone()
@@ -154,7 +155,8 @@ impl Waiting<'_> {
             part.load_depth = LoadOp::Load;
             part.load_stencil = LoadOp::Load;
         }
-        context.render_checked(target, &part, memory)
+        let executor = context.executor_of(&draws);
+        context.render_checked(executor, target, &part, memory)
     }
 }
 

@@ -85,6 +85,95 @@ impl<'a> Draw<'a> {
     }
 }
 
+/// The draws of a pass, in order: one list, or several that follow each other.
+#[derive(Debug, Clone, Copy)]
+pub enum DrawList<'a> {
+    /// One list.
+    Whole(&'a [Draw<'a>]),
+    /// Several lists, which threads made each for themselves.
+    Parts(&'a [Vec<Draw<'a>>]),
+}
+
+impl<'a> DrawList<'a> {
+    /// Returns the number of draws.
+    #[must_use]
+    pub fn len(self) -> usize {
+        match self {
+            Self::Whole(draws) => draws.len(),
+            Self::Parts(parts) => parts.iter().map(Vec::len).sum(),
+        }
+    }
+
+    /// Returns true if there are no draws.
+    #[must_use]
+    pub fn is_empty(self) -> bool {
+        self.len() == 0
+    }
+
+    /// The draws, in order.
+    #[must_use]
+    pub fn iter(self) -> DrawIter<'a> {
+        let (draws, parts) = match self {
+            Self::Whole(draws) => (draws, &[][..]),
+            Self::Parts(parts) => (&[][..], parts),
+        };
+        DrawIter {
+            draws: draws.iter(),
+            parts: parts.iter(),
+            left: self.len(),
+        }
+    }
+}
+
+impl Default for DrawList<'_> {
+    fn default() -> Self {
+        Self::Whole(&[])
+    }
+}
+
+impl<'a> From<&'a [Draw<'a>]> for DrawList<'a> {
+    fn from(draws: &'a [Draw<'a>]) -> Self {
+        Self::Whole(draws)
+    }
+}
+
+impl<'a> IntoIterator for DrawList<'a> {
+    type Item = &'a Draw<'a>;
+    type IntoIter = DrawIter<'a>;
+
+    fn into_iter(self) -> DrawIter<'a> {
+        self.iter()
+    }
+}
+
+/// The draws of a [`DrawList`] that are left.
+#[derive(Debug, Clone)]
+pub struct DrawIter<'a> {
+    draws: std::slice::Iter<'a, Draw<'a>>,
+    parts: std::slice::Iter<'a, Vec<Draw<'a>>>,
+    left: usize,
+}
+
+impl<'a> Iterator for DrawIter<'a> {
+    type Item = &'a Draw<'a>;
+
+    fn next(&mut self) -> Option<&'a Draw<'a>> {
+        loop {
+            if let Some(draw) = self.draws.next() {
+                self.left -= 1;
+                return Some(draw);
+            }
+            self.draws = self.parts.next()?.iter();
+        }
+    }
+
+    fn size_hint(&self) -> (usize, Option<usize>) {
+        (self.left, Some(self.left))
+    }
+}
+
+impl ExactSizeIterator for DrawIter<'_> {}
+
 /// A viewport of a draw that has several.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct ViewportScissor {
@@ -122,7 +211,7 @@ pub struct RenderPass<'a> {
     /// Cancelling the pass, and watching its progress. Default neither.
     pub control: PassControl<'a>,
     /// The draws, in order.
-    pub draws: &'a [Draw<'a>],
+    pub draws: DrawList<'a>,
 }
 
 /// Attachments whose texels are undefined after a pass. Those that are cleared first, in a pass of
@@ -179,7 +268,7 @@ impl Default for RenderPass<'_> {
             discards: Discards::default(),
             occlusion_queries: None,
             control: PassControl::default(),
-            draws: &[],
+            draws: DrawList::default(),
         }
     }
 }
@@ -224,5 +313,51 @@ impl OcclusionQueries {
         if let Some(counter) = self.counters.get(query as usize) {
             counter.fetch_add(samples, Ordering::Relaxed);
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::pipeline::RenderPipelineDescriptor;
+    use estampe_types::shader::VertexOut;
+    use estampe_types::{FragmentIn, FragmentOut, Limits, Vec4, VertexIn};
+
+    /// Draws nothing.
+    struct Nothing;
+
+    estampe_types::shader! {
+        impl Shader for Nothing {
+            type Attributes<R: Real> = ();
+            type Varyings<R: Real> = ();
+
+            fn vertex<R: Real>(&self, input: VertexIn<'_, R>, _: ()) -> VertexOut<R, ()> {
+                let zero = input.real(0.0);
+                VertexOut::new(Vec4::new(zero, zero, zero, zero), ())
+            }
+
+            fn fragment<R: Real>(&self, input: FragmentIn<'_, R>, (): ()) -> FragmentOut<R> {
+                let zero = input.real(0.0);
+                FragmentOut::color(Vec4::new(zero, zero, zero, zero))
+            }
+        }
+    }
+
+    #[test]
+    fn parts_follow_each_other() {
+        let descriptor = RenderPipelineDescriptor::new(Nothing);
+        let pipeline = RenderPipeline::new(&descriptor, &Limits::default()).unwrap();
+        let draws: Vec<_> = (0..5).map(|end| Draw::new(&pipeline, 0..end)).collect();
+        let parts = [&draws[..2], &[], &draws[2..], &[]].map(<[_]>::to_vec);
+        for list in [DrawList::Parts(&parts), DrawList::from(&draws[..])] {
+            let mut iter = list.iter();
+            for end in 0..5 {
+                assert_eq!(iter.len(), 5 - end as usize);
+                assert_eq!(iter.next().map(|draw| draw.elements.end), Some(end));
+            }
+            assert!(iter.next().is_none());
+            assert_eq!((list.len(), list.is_empty()), (5, false));
+        }
+        assert!(DrawList::default().is_empty() && DrawList::Parts(&[]).is_empty());
     }
 }

@@ -12,7 +12,7 @@ use crate::plan::chunk_plan::{ChunkPart, ChunkPlan, VERTEX_CHUNK, part_size};
 use crate::plan::draw_batch::DrawBatch;
 use crate::plan::draw_cursor::DrawCursor;
 use crate::plan::draw_state::DrawState;
-use crate::plan::pass_check::RenderPassError;
+use crate::plan::pass_check::{DrawNeeds, RenderPassError};
 use crate::plan::sub_draw::SubDraw;
 use crate::plan::tile_plan::{TargetFacts, TilePlan, TileState};
 use crate::profile::JobTimings;
@@ -172,29 +172,36 @@ impl Context {
         target: &mut RenderTarget,
         pass: &RenderPass<'_>,
     ) -> Result<Statistics, RenderPassError> {
-        self.render_layers(std::slice::from_mut(target), pass)
+        let needs = pass.check(&target.shape())?;
+        self.render_layers(std::slice::from_mut(target), pass, needs)
     }
 
-    /// Draws a pass into the layers of a target, which have one shape. Draws without a geometry
-    /// shader that selects a layer are drawn into the first.
+    /// Draws a pass whose draws were [checked](crate::DrawChecker), which said what they need, into
+    /// the layers of a target, which have one shape. Draws without a geometry shader that selects a
+    /// layer are drawn into the first.
     ///
     /// # Errors
-    /// As [`Context::render`].
+    /// As [`Context::render`], but for draws that do not fit: what they draw is not defined.
     pub fn render_layers(
         &self,
         layers: &mut [RenderTarget],
         pass: &RenderPass<'_>,
+        needs: DrawNeeds,
     ) -> Result<Statistics, RenderPassError> {
         for target in layers.iter() {
-            pass.check(&target.shape())?;
+            pass.check_loads(&target.shape())?;
+            debug_assert!(
+                pass.check(&target.shape()).is_ok(),
+                "draws that were checked"
+            );
         }
         let kept = || self.memory.lock().unwrap_or_else(PoisonError::into_inner);
         let memory = kept().pop();
         let mut memory = memory.unwrap_or_else(|| Memory::new(self.executor.threads()));
-        let is_amplified = |draw: &Draw<'_>| draw.pipeline.amplified().is_some();
         let drawn = match layers {
-            [target] if !pass.draws.iter().any(is_amplified) => {
-                self.render_checked(target, pass, &mut memory)
+            [target] if !needs.amplification => {
+                let executor = self.executor_for(needs.one_thread);
+                self.render_checked(executor, target, pass, &mut memory)
             }
             layers => self.render_amplified(layers, pass, &mut memory),
         };
@@ -205,6 +212,7 @@ impl Context {
     /// Draws a pass of plain draws that was checked.
     pub(crate) fn render_checked(
         &self,
+        executor: &Executor,
         target: &mut RenderTarget,
         pass: &RenderPass<'_>,
         memory: &mut Memory,
@@ -216,7 +224,6 @@ impl Context {
         for rows in &mut target.rows {
             rows.is_done = false;
         }
-        let executor = self.executor_of(pass.draws);
         let mut cursor = DrawCursor::new(pass.draws, self.level);
         let mut batch = DrawBatch::new(
             recycled(std::mem::take(&mut memory.lists.states)),
@@ -294,9 +301,14 @@ impl Context {
         &self.executor
     }
 
-    /// The threads that may draw a pass.
-    fn executor_of(&self, draws: &[Draw<'_>]) -> &Executor {
-        if draws.iter().any(|draw| draw.pipeline.key().stores_in_order) {
+    /// The threads that may draw draws.
+    pub(crate) fn executor_of(&self, draws: &[Draw<'_>]) -> &Executor {
+        let stores_in_order = |draw: &Draw<'_>| draw.pipeline.key().stores_in_order;
+        self.executor_for(draws.iter().any(stores_in_order))
+    }
+
+    fn executor_for(&self, one_thread: bool) -> &Executor {
+        if one_thread {
             &self.alone
         } else {
             &self.executor

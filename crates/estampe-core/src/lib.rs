@@ -68,14 +68,15 @@ pub use attachment::{
     TargetShape, row_order_words,
 };
 pub use commands::{
-    Discards, Draw, LoadOp, OcclusionQueries, PassControl, RenderPass, ViewportScissor,
+    Discards, Draw, DrawIter, DrawList, LoadOp, OcclusionQueries, PassControl, RenderPass,
+    ViewportScissor,
 };
 pub use draw::Context;
 pub use pipeline::{
     PipelineError, RenderPipeline, RenderPipelineDescriptor, TessellationState,
     check_bind_group_layouts, check_declared, check_immediates,
 };
-pub use plan::pass_check::RenderPassError;
+pub use plan::pass_check::{DrawChecker, DrawNeeds, RenderPassError};
 pub use recycle::recycled;
 pub use schedule::{Awake, ThreadError, ThreadPool, ThreadPoolBuilder};
 pub use statistics::Statistics;

@@ -2,8 +2,8 @@
 //! each of them.
 
 use estampe_core::{
-    ColorTexels, Context, DepthStencilTexels, Draw, ImageSize, LoadOp, RenderPass, RenderPipeline,
-    RenderPipelineDescriptor, RenderTarget, row_order_words,
+    ColorTexels, Context, DepthStencilTexels, Draw, DrawList, ImageSize, LoadOp, RenderPass,
+    RenderPipeline, RenderPipelineDescriptor, RenderTarget, row_order_words,
 };
 use estampe_simd::Level;
 use estampe_types::shader::VertexOut;
@@ -146,13 +146,13 @@ fn check(descriptor: RenderPipelineDescriptor, samples: u32) {
     let [mut together, mut one_by_one] = [0, 1].map(|_| target(samples));
     let context = Context::new(1, Level::best()).unwrap();
     let pass = RenderPass {
-        draws: &draws,
+        draws: DrawList::from(&draws[..]),
         ..RenderPass::default()
     };
     context.render(&mut together, &pass).unwrap();
     for (number, draw) in draws.iter().enumerate() {
         let mut pass = RenderPass {
-            draws: std::slice::from_ref(draw),
+            draws: DrawList::from(std::slice::from_ref(draw)),
             ..RenderPass::default()
         };
         if number > 0 {

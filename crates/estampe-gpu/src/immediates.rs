@@ -51,7 +51,7 @@ pub(crate) fn check_immediates(
 }
 
 /// The words of bytes that were checked, little-endian as those of buffers.
-pub(crate) fn immediate_words(bytes: &[u8]) -> Vec<u32> {
+pub(crate) fn immediate_words(bytes: &[u8]) -> impl Iterator<Item = u32> {
     let (words, _) = bytes.as_chunks::<4>();
-    words.iter().map(|word| u32::from_le_bytes(*word)).collect()
+    words.iter().map(|word| u32::from_le_bytes(*word))
 }

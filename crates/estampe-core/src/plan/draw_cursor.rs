@@ -8,7 +8,7 @@ use super::index_range::{
 };
 use super::sub_draw::{Instances, SubDraw};
 use crate::attachment::RenderTarget;
-use crate::commands::Draw;
+use crate::commands::{Draw, DrawIter, DrawList};
 use crate::geometry::assembly::primitive_count;
 use crate::geometry::restart::{RestartCursor, RestartSource};
 use crate::schedule::Executor;
@@ -35,7 +35,7 @@ const INCOHERENT_PRIMITIVES: u32 = 1_000_000;
 /// The position in a pass's draws up to which they are cut into batches.
 #[derive(Debug)]
 pub(crate) struct DrawCursor<'a> {
-    draws: std::slice::Iter<'a, Draw<'a>>,
+    draws: DrawIter<'a>,
     /// The draw that is being cut.
     current: Option<OpenDraw<'a>>,
     known: KnownExtremes,
@@ -58,7 +58,7 @@ struct OpenDraw<'a> {
 }
 
 impl<'a> DrawCursor<'a> {
-    pub(crate) fn new(draws: &'a [Draw<'a>], level: Level) -> Self {
+    pub(crate) fn new(draws: DrawList<'a>, level: Level) -> Self {
         Self {
             draws: draws.iter(),
             current: None,
@@ -306,7 +306,10 @@ mod tests {
         let depth = DepthStencilTexels::zeros(TextureFormat::Depth32Float, size).unwrap();
         let target = RenderTarget::of_images(size, vec![color], Some(depth));
         let executor = Executor::new(1).unwrap();
-        let (mut cursor, mut batch) = (DrawCursor::new(draws, Level::best()), DrawBatch::default());
+        let (mut cursor, mut batch) = (
+            DrawCursor::new(draws.into(), Level::best()),
+            DrawBatch::default(),
+        );
         let mut batches = 0;
         loop {
             batch.clear();

@@ -106,27 +106,112 @@ pub enum RenderPassError {
     },
 }
 
+/// What the draws of a pass need, as it was found when they were [checked](DrawChecker).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct DrawNeeds {
+    /// Tessellation or a geometry shader.
+    pub(crate) amplification: bool,
+    /// One thread, because shaders store in an order that can be seen.
+    pub(crate) one_thread: bool,
+}
+
+impl std::ops::BitOrAssign for DrawNeeds {
+    fn bitor_assign(&mut self, other: Self) {
+        self.amplification |= other.amplification;
+        self.one_thread |= other.one_thread;
+    }
+}
+
+/// Checks draws one after the other: whether they can be drawn into a target.
+#[derive(Debug)]
+pub struct DrawChecker<'a> {
+    target: TargetShape<'a>,
+    queries: usize,
+    /// The pipeline that was checked last: draws in a row mostly have one.
+    last: Option<&'a RenderPipeline>,
+    needs: DrawNeeds,
+}
+
+impl<'a> DrawChecker<'a> {
+    /// Nothing is checked yet; the pass has a target, and so many occlusion queries.
+    #[must_use]
+    pub fn new(target: &TargetShape<'a>, queries: usize) -> Self {
+        Self {
+            target: *target,
+            queries,
+            last: None,
+            needs: DrawNeeds::default(),
+        }
+    }
+
+    /// Checks the next draw, by what the rules are about.
+    ///
+    /// # Errors
+    /// [`RenderPassError`] names the draw by its number if it does not fit.
+    pub fn check(
+        &mut self,
+        number: usize,
+        pipeline: &'a RenderPipeline,
+        viewports: impl Iterator<Item = Viewport>,
+        query: Option<u32>,
+    ) -> Result<(), RenderPassError> {
+        if !self.last.is_some_and(|last| std::ptr::eq(last, pipeline)) {
+            check_pipeline(&self.target, number, pipeline)?;
+            self.last = Some(pipeline);
+            self.needs |= DrawNeeds {
+                amplification: pipeline.amplified().is_some(),
+                one_thread: pipeline.key().stores_in_order,
+            };
+        }
+        check_viewports(number, viewports)?;
+        match query {
+            Some(query) if query as usize >= self.queries => Err(RenderPassError::OcclusionQuery {
+                draw: number,
+                query,
+                count: self.queries,
+            }),
+            _ => Ok(()),
+        }
+    }
+
+    /// What the draws so far need.
+    #[must_use]
+    pub fn needs(&self) -> DrawNeeds {
+        self.needs
+    }
+}
+
 impl RenderPass<'_> {
-    /// Checks that the pass can be drawn into a target.
+    /// Checks that the pass can be drawn into a target, and says what its draws need.
     ///
     /// # Errors
     /// [`RenderPassError`] names the draw that does not fit.
-    pub fn check(&self, target: &TargetShape<'_>) -> Result<(), RenderPassError> {
+    pub fn check(&self, target: &TargetShape<'_>) -> Result<DrawNeeds, RenderPassError> {
+        self.check_loads(target)?;
+        let queries = self.occlusion_queries.map_or(0, |queries| queries.count());
+        let mut checker = DrawChecker::new(target, queries);
+        for (number, draw) in self.draws.iter().enumerate() {
+            let viewports = draw.viewports();
+            checker.check(number, draw.pipeline, viewports, draw.occlusion_query)?;
+        }
+        Ok(checker.needs())
+    }
+
+    /// Checks that no load operation is without its attachment.
+    pub(crate) fn check_loads(&self, target: &TargetShape<'_>) -> Result<(), RenderPassError> {
         let (given, attachments) = (self.load_colors.len(), target.color_formats.len());
         if given > attachments {
             return Err(RenderPassError::LoadColors { given, attachments });
         }
-        let queries = self.occlusion_queries.map_or(0, |queries| queries.count());
-        let mut last: Option<&RenderPipeline> = None;
-        for (number, draw) in self.draws.iter().enumerate() {
-            // Draws in a row mostly have one pipeline.
-            if !last.is_some_and(|last| std::ptr::eq(last, draw.pipeline)) {
-                check_pipeline(target, number, draw.pipeline)?;
-                last = Some(draw.pipeline);
-            }
-            check_draw(queries, number, draw)?;
-        }
         Ok(())
+    }
+}
+
+impl Draw<'_> {
+    /// The viewports that are set.
+    fn viewports(&self) -> impl Iterator<Item = Viewport> {
+        let more = self.more_viewports.iter().filter_map(|more| more.viewport);
+        self.viewport.into_iter().chain(more)
     }
 }
 
@@ -170,23 +255,17 @@ fn check_pipeline(
     Ok(())
 }
 
-/// Checks a draw's viewports and its occlusion query.
-fn check_draw(queries: usize, number: usize, draw: &Draw<'_>) -> Result<(), RenderPassError> {
-    let more = draw.more_viewports.iter().filter_map(|more| more.viewport);
-    let mut viewports = draw.viewport.into_iter().chain(more);
-    if let Some(viewport) = viewports.find(|viewport| !is_valid(viewport)) {
-        return Err(RenderPassError::Viewport {
+/// Checks a draw's viewports.
+fn check_viewports(
+    number: usize,
+    mut viewports: impl Iterator<Item = Viewport>,
+) -> Result<(), RenderPassError> {
+    match viewports.find(|viewport| !is_valid(viewport)) {
+        Some(viewport) => Err(RenderPassError::Viewport {
             draw: number,
             viewport,
-        });
-    }
-    match draw.occlusion_query {
-        Some(query) if query as usize >= queries => Err(RenderPassError::OcclusionQuery {
-            draw: number,
-            query,
-            count: queries,
         }),
-        _ => Ok(()),
+        None => Ok(()),
     }
 }
 

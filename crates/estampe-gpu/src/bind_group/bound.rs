@@ -18,12 +18,10 @@ pub(crate) struct BoundError {
     pub(crate) rule: String,
 }
 
-/// Checks that groups have the layouts of a pipeline, and that each dynamic binding has an offset
-/// in its buffer.
-pub(crate) fn check_bound(
+/// Checks that groups have the layouts of a pipeline.
+pub(crate) fn check_layouts(
     layouts: &[BindGroupLayout],
     groups: &[BindGroup],
-    dynamic_offsets: &[u32],
     limits: &Limits,
 ) -> Result<(), BoundError> {
     let bad = |group: usize, rule: String| Err(BoundError { group, rule });
@@ -45,10 +43,21 @@ pub(crate) fn check_bound(
             return bad(index, rule);
         }
     }
+    Ok(())
+}
+
+/// Checks that each dynamic binding has an offset in its buffer, and that no two bindings by which
+/// shaders write overlap.
+pub(crate) fn check_offsets(
+    groups: &[BindGroup],
+    dynamic_offsets: &[u32],
+    limits: &Limits,
+) -> Result<(), BoundError> {
+    let bad = |group: usize, rule: String| Err(BoundError { group, rule });
     let mut offsets = dynamic_offsets;
     let given = dynamic_offsets.len();
     for (index, group) in groups.iter().enumerate() {
-        let count = group.layout().dynamic_offset_count();
+        let count = group.dynamic_offset_count();
         let Some((of_group, others)) = offsets.split_at_checked(count) else {
             let (name, left) = (group.name(), offsets.len());
             let rule = format!(
@@ -69,7 +78,10 @@ pub(crate) fn check_bound(
         let rule = format!("{given} dynamic offsets are given, and the bind groups have {used}");
         return bad(groups.len().saturating_sub(1), rule);
     }
-    check_aliases(groups, dynamic_offsets)
+    if groups.iter().any(BindGroup::is_written) {
+        check_aliases(groups, dynamic_offsets)?;
+    }
+    Ok(())
 }
 
 /// Memory that shaders write.
@@ -99,7 +111,7 @@ fn check_aliases(groups: &[BindGroup], dynamic_offsets: &[u32]) -> Result<(), Bo
     let mut written: Vec<(usize, u32, Written<'_>)> = Vec::new();
     let mut offsets = dynamic_offsets;
     for (number, group) in groups.iter().enumerate() {
-        let (of_group, others) = offsets.split_at(group.layout().dynamic_offset_count());
+        let (of_group, others) = offsets.split_at(group.dynamic_offset_count());
         offsets = others;
         for (binding, resource) in group.entries() {
             let ty = group.layout().entry(*binding).map(|entry| entry.ty);
@@ -177,10 +189,10 @@ pub(crate) fn bound(
     groups: &[BindGroup],
     dynamic_offsets: &[u32],
     resources: impl Fn(&BindGroup) -> Arc<BoundResources>,
-) -> Vec<BoundGroup> {
+) -> impl Iterator<Item = BoundGroup> {
     let mut offsets = dynamic_offsets;
-    let groups = groups.iter().map(|group| {
-        let count = group.layout().dynamic_offset_count();
+    groups.iter().map(move |group| {
+        let count = group.dynamic_offset_count();
         let (of_group, others) = offsets.split_at(count.min(offsets.len()));
         offsets = others;
         let mut dynamic_offsets = [0; MAX_DYNAMIC_OFFSETS];
@@ -191,6 +203,5 @@ pub(crate) fn bound(
             group: resources(group),
             dynamic_offsets,
         }
-    });
-    groups.collect()
+    })
 }

@@ -5,12 +5,14 @@ mod check;
 mod error;
 mod resources;
 
-pub(crate) use bound::{BoundError, bound, check_bound};
+pub(crate) use bound::{BoundError, bound, check_layouts, check_offsets};
 pub(crate) use check::create_layout;
 pub use error::BindGroupError;
 
 use crate::texture::{Sampler, TextureView};
-use crate::{BindGroupLayout, BufferSlice, Limits};
+use crate::{
+    BindGroupLayout, BindGroupLayoutEntry, BindingType, BufferBindingType, BufferSlice, Limits,
+};
 use check::check_entry;
 use std::sync::Arc;
 
@@ -69,6 +71,9 @@ struct Inner {
     label: Option<String>,
     layout: BindGroupLayout,
     entries: Vec<(u32, BindingResource)>,
+    /// Facts of the layout that each draw is checked by.
+    dynamic_offset_count: usize,
+    is_written: bool,
 }
 
 impl BindGroup {
@@ -106,6 +111,8 @@ impl BindGroup {
                 label,
                 layout: descriptor.layout.clone(),
                 entries,
+                dynamic_offset_count: descriptor.layout.dynamic_offset_count(),
+                is_written: descriptor.layout.entries().iter().any(writes),
             }),
         })
     }
@@ -124,6 +131,16 @@ impl BindGroup {
         &self.inner.entries
     }
 
+    /// The number of dynamic offsets that a draw gives it.
+    pub(crate) fn dynamic_offset_count(&self) -> usize {
+        self.inner.dynamic_offset_count
+    }
+
+    /// Returns true if shaders may write to a resource.
+    pub(crate) fn is_written(&self) -> bool {
+        self.inner.is_written
+    }
+
     /// A number that tells groups apart.
     pub(crate) fn id(&self) -> usize {
         Arc::as_ptr(&self.inner).addr()
@@ -131,6 +148,14 @@ impl BindGroup {
 
     pub(crate) fn is_same(&self, other: &Self) -> bool {
         Arc::ptr_eq(&self.inner, &other.inner)
+    }
+}
+
+fn writes(entry: &BindGroupLayoutEntry) -> bool {
+    match entry.ty {
+        BindingType::Buffer { ty, .. } => ty == BufferBindingType::Storage { read_only: false },
+        BindingType::StorageTexture { .. } => true,
+        _ => false,
     }
 }
 

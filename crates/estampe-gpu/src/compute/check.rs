@@ -1,7 +1,7 @@
 //! The rules of compute pipelines and dispatches.
 
 use super::{ComputePipelineError, Dispatch, DispatchError, DispatchErrorKind, DispatchSize};
-use crate::bind_group::{BoundError, check_bound};
+use crate::bind_group::{BoundError, check_layouts, check_offsets};
 use crate::buffer::check_conflicts;
 use crate::immediates::check_immediates;
 use crate::texture::check_texture_conflicts;
@@ -71,13 +71,9 @@ pub(super) fn check_kind(
     dispatch: &Dispatch<'_>,
 ) -> Result<(), DispatchErrorKind> {
     let layouts = dispatch.pipeline.bind_group_layouts();
-    check_bound(
-        layouts,
-        dispatch.bind_groups,
-        dispatch.dynamic_offsets,
-        limits,
-    )
-    .map_err(|BoundError { group, rule }| DispatchErrorKind::BindGroup { group, rule })?;
+    let bad = |BoundError { group, rule }| DispatchErrorKind::BindGroup { group, rule };
+    check_layouts(layouts, dispatch.bind_groups, limits).map_err(bad)?;
+    check_offsets(dispatch.bind_groups, dispatch.dynamic_offsets, limits).map_err(bad)?;
     let needed = dispatch.pipeline.program().immediate_size();
     check_immediates(dispatch.immediates, needed, limits)?;
     let groups: Vec<&BindGroup> = dispatch.bind_groups.iter().collect();

@@ -52,8 +52,8 @@ fn run(device: &Device, dispatch: &Dispatch<'_>) -> Result<(), DispatchErrorKind
         found.map_or_else(Arc::default, |(_, bound)| Arc::clone(bound))
     });
     let bindings = Bindings {
-        groups,
-        immediates: immediate_words(dispatch.immediates),
+        groups: groups.collect(),
+        immediates: immediate_words(dispatch.immediates).collect(),
         ..Bindings::default()
     };
     let program = &**dispatch.pipeline.program();

@@ -79,7 +79,7 @@ pub(crate) fn inspect(
             return Err(InspectError::NoLayer { layer, layers });
         };
         let draws = data.draws(device.context(), pass.draws);
-        let core_pass = core_pass(pass, attachments.loads(), &draws);
+        let core_pass = core_pass(pass, attachments.loads(), draws[..].into());
         let checked = attachments.with_shape(|shape| core_pass.check(shape));
         checked.map_err(|error| refused(pass, error.into()))?;
         let stores = pass.draws.iter().any(|draw| draw.pipeline.stores());

@@ -1,8 +1,9 @@
 //! The checks of a pass's draws that need the objects: buffers, bind groups, uses of one image.
 
 use super::attachments::Attachments;
+use super::survey::{same_lists, vertices as vertices_of};
 use super::{Draw, PassErrorKind};
-use crate::bind_group::{BindingResource, BoundError, check_bound};
+use crate::bind_group::{BindingResource, BoundError, check_layouts, check_offsets};
 use crate::buffer::check_conflicts;
 use crate::immediates::check_immediates;
 use crate::{
@@ -10,22 +11,55 @@ use crate::{
 };
 use estampe_types::state::{ColorTargetState, DepthStencilState};
 
-/// Checks a draw.
-pub(super) fn check_draw(
-    number: usize,
-    draw: &Draw<'_>,
-    attachments: &Attachments<'_>,
-    limits: &Limits,
-) -> Result<(), PassErrorKind> {
-    check_formats(number, draw, attachments)?;
-    check_read_only(number, draw, attachments.read_only())?;
-    check_buffers(number, draw)?;
-    check_groups(number, draw, limits)?;
-    let needed = draw.pipeline.descriptor().immediate_size();
-    check_immediates(draw.immediates, needed, limits).map_err(|error| PassErrorKind::Immediates {
-        draw: number,
-        error,
-    })
+/// The rules of draws that are about objects, and what they are checked against.
+#[derive(Debug)]
+pub(super) struct DrawCheck<'a> {
+    pub(super) attachments: &'a Attachments<'a>,
+    pub(super) limits: &'a Limits,
+}
+
+impl DrawCheck<'_> {
+    /// Checks a draw, but for what it shares with the one before, which was checked.
+    pub(super) fn check(
+        &self,
+        number: usize,
+        draw: &Draw<'_>,
+        before: Option<&Draw<'_>>,
+    ) -> Result<(), PassErrorKind> {
+        let &Self {
+            attachments,
+            limits,
+        } = self;
+        let before = before.filter(|before| std::ptr::eq(before.pipeline, draw.pipeline));
+        if before.is_none() {
+            check_formats(number, draw, attachments)?;
+            check_read_only(number, draw, attachments.read_only())?;
+        }
+        if !before.is_some_and(|before| same_buffers(before, draw)) {
+            check_buffers(number, draw)?;
+        }
+        let same_groups = before.is_some_and(|before| same_lists(before, draw));
+        check_groups(number, draw, same_groups, limits)?;
+        if before.is_some_and(|before| before.immediates.len() == draw.immediates.len()) {
+            return Ok(());
+        }
+        let needed = draw.pipeline.descriptor().immediate_size();
+        check_immediates(draw.immediates, needed, limits).map_err(|error| {
+            PassErrorKind::Immediates {
+                draw: number,
+                error,
+            }
+        })
+    }
+}
+
+/// Returns true if the buffers that two draws fetch from are the same lists.
+fn same_buffers(a: &Draw<'_>, b: &Draw<'_>) -> bool {
+    let indices = |draw: &Draw<'_>| {
+        draw.index_buffer
+            .map(|(slice, _)| std::ptr::from_ref(slice))
+    };
+    std::ptr::eq(a.vertex_buffers, b.vertex_buffers) && indices(a) == indices(b)
 }
 
 /// Checks that the vertices of all draws together keep the limit.
@@ -33,9 +67,7 @@ pub(super) fn check_vertices(draws: &[Draw<'_>], limits: &Limits) -> Result<(), 
     let limit = limits.max_pass_vertices;
     let mut vertices = 0_u64;
     for (number, draw) in draws.iter().enumerate() {
-        let len = |range: &std::ops::Range<u32>| range.end.saturating_sub(range.start);
-        let elements = u64::from(len(&draw.elements)) * u64::from(len(&draw.instances));
-        vertices = vertices.saturating_add(elements);
+        vertices = vertices.saturating_add(vertices_of(draw));
         if vertices > limit {
             return Err(PassErrorKind::TooManyVertices {
                 draw: number,
@@ -138,15 +170,28 @@ fn check_slice(
     Ok(())
 }
 
-fn check_groups(number: usize, draw: &Draw<'_>, limits: &Limits) -> Result<(), PassErrorKind> {
+/// Checks the bind groups of a draw and their dynamic offsets; the offsets alone where the draw
+/// before has the same groups and pipeline.
+fn check_groups(
+    number: usize,
+    draw: &Draw<'_>,
+    is_as_before: bool,
+    limits: &Limits,
+) -> Result<(), PassErrorKind> {
     let bad = |group: usize, rule: String| PassErrorKind::BindGroup {
         draw: number,
         group,
         rule,
     };
-    let layouts = &draw.pipeline.descriptor().bind_group_layouts;
-    check_bound(layouts, draw.bind_groups, draw.dynamic_offsets, limits)
-        .map_err(|BoundError { group, rule }| bad(group, rule))?;
+    let of_group = |BoundError { group, rule }| bad(group, rule);
+    if !is_as_before {
+        let layouts = &draw.pipeline.descriptor().bind_group_layouts;
+        check_layouts(layouts, draw.bind_groups, limits).map_err(of_group)?;
+    }
+    check_offsets(draw.bind_groups, draw.dynamic_offsets, limits).map_err(of_group)?;
+    if is_as_before {
+        return Ok(());
+    }
     let is_storage =
         |entry: &BindGroupLayoutEntry| matches!(entry.ty, BindingType::StorageTexture { .. });
     for (index, group) in draw.bind_groups.iter().enumerate() {

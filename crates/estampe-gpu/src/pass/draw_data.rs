@@ -1,15 +1,17 @@
 //! What the draws of a pass refer to, as the core sees it: plain data.
 
+use super::check::DrawCheck;
+use super::survey::{PartSurvey, same_lists};
 use super::{Draw, PassErrorKind};
 use crate::bind_group::bound;
 use crate::buffer::StoredBuffers;
 use crate::immediates::immediate_words;
 use crate::texture::StoredTextures;
 use crate::{BindGroup, BufferSlice, Context, RenderPipeline};
+use estampe_core::DrawNeeds;
 use estampe_types::bindings::BoundResources;
 use estampe_types::{Bindings, BufferData};
 use std::collections::BTreeMap;
-use std::ops::Range;
 use std::sync::Arc;
 
 /// The pipelines of a bind group that are told apart: of one with more, texels may be read.
@@ -26,19 +28,16 @@ pub(super) struct Groups<'a> {
 }
 
 impl<'a> Groups<'a> {
-    pub(super) fn of(draws: &[Draw<'a>]) -> Self {
+    /// The groups of draws, of which those with some numbers bind all.
+    pub(super) fn of(draws: &[Draw<'a>], changes: impl Iterator<Item = usize>) -> Self {
         let mut groups = Self {
             distinct: Vec::new(),
             uses: Vec::new(),
             indices: BTreeMap::new(),
         };
         let mut before: Option<&Draw<'a>> = None;
-        for draw in draws {
-            let is_as_before = before.is_some_and(|before| {
-                std::ptr::eq(draw.bind_groups, before.bind_groups)
-                    && std::ptr::eq(draw.pipeline, before.pipeline)
-            });
-            if is_as_before {
+        for draw in changes.map(|number| &draws[number]) {
+            if before.is_some_and(|before| same_lists(before, draw)) {
                 continue;
             }
             for (group, number) in draw.bind_groups.iter().zip(0..) {
@@ -91,7 +90,7 @@ impl<'a> Groups<'a> {
 }
 
 /// Draws whose data one thread makes.
-pub(super) const PART_DRAWS: usize = 512;
+const PART_DRAWS: usize = 512;
 
 /// The plain data that the draws of a pass refer to, made on all threads.
 #[derive(Debug, Default)]
@@ -100,43 +99,90 @@ pub(crate) struct DrawData {
     parts: Vec<PartData>,
 }
 
-/// The plain data of a part of a pass's draws.
+/// The plain data of a part of a pass's draws: that of a draw, unless it is that of the one before,
+/// after that of the draws before.
 #[derive(Debug, Default)]
 struct PartData {
+    survey: PartSurvey,
+    /// Of each draw its vertex buffers, then its index buffer.
     buffers: Vec<BufferData>,
+    /// Those in use, then others, whose memory is kept.
     bindings: Vec<Bindings>,
-    /// For each draw: its vertex buffers, its index buffer, its bindings.
-    of_draws: Vec<(Range<usize>, Option<usize>, Option<usize>)>,
+    bound: usize,
 }
 
 /// Memory of a pass's draws, kept for the next pass.
 #[derive(Debug, Default)]
 pub(crate) struct DrawMemory {
     pub(super) data: DrawData,
-    pub(super) draws: Vec<estampe_core::Draw<'static>>,
+    /// The draws of each part.
+    pub(super) draws: Vec<Vec<estampe_core::Draw<'static>>>,
 }
 
 impl DrawMemory {
     /// Lets go of what the draws refer to, on all threads.
     pub(super) fn clear(&mut self, context: &Context) {
-        self.draws.clear();
         context.for_each(&mut self.data.parts, PartData::clear);
     }
 }
 
 impl DrawData {
-    pub(super) fn new(
+    /// Looks through draws, on all threads, before their data are made. Says which is the first
+    /// that breaks a rule about objects.
+    pub(super) fn survey(
+        &mut self,
         context: &Context,
         draws: &[Draw<'_>],
-        groups: &Groups<'_>,
-        resources: &[Arc<BoundResources>],
-    ) -> Self {
-        let mut data = Self::default();
-        data.fill(context, draws, groups, resources);
-        data
+        check: &DrawCheck<'_>,
+        queries: usize,
+    ) -> Result<(), PassErrorKind> {
+        let parts = draws.chunks(PART_DRAWS);
+        if self.parts.len() < parts.len() {
+            self.parts.resize_with(parts.len(), PartData::default);
+        }
+        for rest in &mut self.parts[parts.len()..] {
+            rest.survey.clear();
+        }
+        let firsts = (0..).step_by(PART_DRAWS);
+        let jobs = self.parts.iter_mut().zip(firsts.zip(parts));
+        let mut jobs: Vec<_> = jobs.collect();
+        check.attachments.with_shape(|target| {
+            context.for_each(&mut jobs, |(part, draws)| {
+                part.survey.look(*draws, check, (target, queries));
+            });
+        });
+        let refused = |part: &mut PartData| part.survey.refused.take();
+        match self.parts.iter_mut().find_map(refused) {
+            Some(refused) => Err(refused),
+            None => Ok(()),
+        }
     }
 
-    /// Makes the data of draws in memory that holds none.
+    /// What was found of each part.
+    pub(super) fn surveys(&self) -> impl Iterator<Item = &PartSurvey> + Clone {
+        self.parts.iter().map(|part| &part.survey)
+    }
+
+    /// The numbers of draws among which are the first of each pipeline and list of bind groups in a
+    /// row.
+    pub(super) fn changes(&self) -> impl Iterator<Item = usize> {
+        self.surveys()
+            .flat_map(|survey| survey.changes.iter().copied())
+    }
+
+    /// What the draws need, if they keep the core's rules.
+    pub(super) fn needs(&self) -> Result<DrawNeeds, estampe_core::RenderPassError> {
+        let mut needs = DrawNeeds::default();
+        for survey in self.surveys() {
+            if let Some(misfit) = &survey.misfit {
+                return Err(misfit.clone());
+            }
+            needs |= survey.needs;
+        }
+        Ok(needs)
+    }
+
+    /// Makes the data of draws that were looked through, in memory that holds none.
     pub(super) fn fill(
         &mut self,
         context: &Context,
@@ -144,11 +190,8 @@ impl DrawData {
         groups: &Groups<'_>,
         resources: &[Arc<BoundResources>],
     ) {
-        let parts = draws.chunks(PART_DRAWS);
-        if self.parts.len() < parts.len() {
-            self.parts.resize_with(parts.len(), PartData::default);
-        }
-        let mut jobs: Vec<_> = self.parts.iter_mut().zip(parts).collect();
+        let jobs = self.parts.iter_mut().zip(draws.chunks(PART_DRAWS));
+        let mut jobs: Vec<_> = jobs.collect();
         context.for_each(&mut jobs, |(part, draws)| {
             part.fill(draws, groups, resources);
         });
@@ -160,33 +203,25 @@ impl DrawData {
         context: &Context,
         draws: &[Draw<'a>],
     ) -> Vec<estampe_core::Draw<'a>> {
-        let mut all = Vec::new();
-        self.draws_into(context, draws, &mut all);
-        all
+        let mut parts = Vec::new();
+        self.draws_into(context, draws, &mut parts);
+        parts.concat()
     }
 
-    /// The draws as the core sees them, in an empty list.
+    /// The draws of each part as the core sees them, in lists whose memory is used again.
     pub(super) fn draws_into<'a>(
         &'a self,
         context: &Context,
         draws: &[Draw<'a>],
-        into: &mut Vec<estampe_core::Draw<'a>>,
+        into: &mut Vec<Vec<estampe_core::Draw<'a>>>,
     ) {
-        debug_assert!(into.is_empty(), "a list that was cleared");
-        let Some(first) = draws.first() else {
-            return;
-        };
-        // Each is replaced.
-        into.resize(
-            draws.len(),
-            estampe_core::Draw::new(first.pipeline, first.elements.clone()),
-        );
         let parts = self.parts.iter().zip(draws.chunks(PART_DRAWS));
-        let mut jobs: Vec<_> = into.chunks_mut(PART_DRAWS).zip(parts).collect();
+        if into.len() < parts.len() {
+            into.resize_with(parts.len(), Vec::new);
+        }
+        let mut jobs: Vec<_> = into.iter_mut().zip(parts).collect();
         context.for_each(&mut jobs, |(into, (part, draws))| {
-            for ((into, draw), data) in into.iter_mut().zip(*draws).zip(&part.of_draws) {
-                *into = part.draw(draw, data);
-            }
+            part.draws_into(draws, into);
         });
     }
 }
@@ -194,76 +229,89 @@ impl DrawData {
 impl PartData {
     fn clear(&mut self) {
         self.buffers.clear();
-        self.bindings.clear();
-        self.of_draws.clear();
+        for bindings in &mut self.bindings[..self.bound] {
+            bindings.groups.clear();
+            bindings.immediates.clear();
+        }
+        self.bound = 0;
     }
 
     /// Makes the data of draws.
     fn fill(&mut self, draws: &[Draw<'_>], groups: &Groups<'_>, resources: &[Arc<BoundResources>]) {
-        let mut before: Option<&Draw<'_>> = None;
-        let mut last = (0..0, None, None);
-        for draw in draws {
-            let is_same = |same: fn(&Draw<'_>, &Draw<'_>) -> bool| {
-                before.is_some_and(|before| same(before, draw))
-            };
-            if !is_same(|a, b| same_slices(a.vertex_buffers, b.vertex_buffers)) {
-                let first = self.buffers.len();
+        let mut offsets = &self.survey.dynamic_offsets[..];
+        for (draw, differs) in draws.iter().zip(&self.survey.differs) {
+            if differs.vertices {
                 self.buffers.extend(draw.vertex_buffers.iter().map(data_of));
-                last.0 = first..self.buffers.len();
             }
-            if !is_same(|a, b| match (a.index_buffer, b.index_buffer) {
-                (Some((a, _)), Some((b, _))) => same_slice(a, b),
-                (a, b) => a.is_none() && b.is_none(),
-            }) {
-                last.1 = draw.index_buffer.map(|(slice, _)| {
-                    self.buffers.push(data_of(slice));
-                    self.buffers.len() - 1
-                });
+            if differs.indices {
+                let slice = draw.index_buffer.map(|(slice, _)| data_of(slice));
+                self.buffers.extend(slice);
             }
-            if !is_same(|a, b| a.immediates == b.immediates && same_groups(a, b)) {
-                let is_bound = !draw.bind_groups.is_empty() || !draw.immediates.is_empty();
-                last.2 = is_bound.then(|| {
-                    let groups = bound(draw.bind_groups, draw.dynamic_offsets, |group| {
-                        let index = groups.index_of(group);
-                        index.map_or_else(Arc::default, |index| Arc::clone(&resources[index]))
-                    });
-                    self.bindings.push(Bindings {
-                        groups,
-                        immediates: immediate_words(draw.immediates),
-                        ..Bindings::default()
-                    });
-                    self.bindings.len() - 1
-                });
+            if !differs.bindings {
+                continue;
             }
-            self.of_draws.push(last.clone());
-            before = Some(draw);
+            let (of_draw, others) = offsets.split_at(draw.dynamic_offsets.len());
+            offsets = others;
+            if !is_bound(draw) {
+                continue;
+            }
+            if self.bindings.len() == self.bound {
+                self.bindings.push(Bindings::default());
+            }
+            let bindings = &mut self.bindings[self.bound];
+            self.bound += 1;
+            let found = bound(draw.bind_groups, of_draw, |group| {
+                let index = groups.index_of(group);
+                index.map_or_else(Arc::default, |index| Arc::clone(&resources[index]))
+            });
+            bindings.groups.extend(found);
+            bindings.immediates.extend(immediate_words(draw.immediates));
         }
     }
 
-    /// A draw as the core sees it.
-    fn draw<'a>(
-        &'a self,
-        draw: &Draw<'a>,
-        (vertices, indices, bindings): &(Range<usize>, Option<usize>, Option<usize>),
-    ) -> estampe_core::Draw<'a> {
-        let format = draw.index_buffer.map(|(_, format)| format);
-        estampe_core::Draw {
-            pipeline: draw.pipeline,
-            vertex_buffers: &self.buffers[vertices.clone()],
-            indices: indices.map(|at| &self.buffers[at]).zip(format),
-            elements: draw.elements.clone(),
-            instances: draw.instances.clone(),
-            base_vertex: draw.base_vertex,
-            bindings: bindings.map(|at| &self.bindings[at]),
-            viewport: draw.viewport,
-            scissor: draw.scissor,
-            more_viewports: draw.more_viewports,
-            blend_constant: draw.blend_constant,
-            stencil_reference: draw.stencil_reference,
-            depth_bounds: draw.depth_bounds,
-            occlusion_query: draw.occlusion_query,
-        }
+    /// The draws as the core sees them, in a list that is cleared first.
+    fn draws_into<'a>(&'a self, draws: &[Draw<'a>], into: &mut Vec<estampe_core::Draw<'a>>) {
+        let mut buffers = &self.buffers[..];
+        let mut bindings = self.bindings.iter();
+        let (mut vertices, mut indices, mut bound) = (&[][..], None, None);
+        let draws = draws.iter().zip(&self.survey.differs);
+        into.clear();
+        into.extend(draws.map(|(draw, differs)| {
+            if differs.vertices {
+                (vertices, buffers) = buffers.split_at(draw.vertex_buffers.len());
+            }
+            if differs.indices {
+                let count = usize::from(draw.index_buffer.is_some());
+                let (buffer, others) = buffers.split_at(count);
+                (indices, buffers) = (buffer.first(), others);
+            }
+            if differs.bindings {
+                bound = is_bound(draw).then(|| bindings.next()).flatten();
+            }
+            let format = draw.index_buffer.map(|(_, format)| format);
+            estampe_core::Draw {
+                pipeline: draw.pipeline,
+                vertex_buffers: vertices,
+                indices: indices.zip(format),
+                elements: draw.elements.clone(),
+                instances: draw.instances.clone(),
+                base_vertex: draw.base_vertex,
+                bindings: bound,
+                viewport: draw.viewport,
+                scissor: draw.scissor,
+                more_viewports: draw.more_viewports,
+                blend_constant: draw.blend_constant,
+                stencil_reference: draw.stencil_reference,
+                depth_bounds: draw.depth_bounds,
+                occlusion_query: draw.occlusion_query,
+            }
+        }));
     }
+}
+
+/// Returns true if a draw has bind groups or immediates.
+fn is_bound(draw: &Draw<'_>) -> bool {
+    !draw.bind_groups.is_empty() || !draw.immediates.is_empty()
 }
 
 fn data_of(slice: &BufferSlice) -> BufferData {
@@ -273,19 +321,4 @@ fn data_of(slice: &BufferSlice) -> BufferData {
         .buffer
         .data()
         .slice(bytes(slice.offset), bytes(slice.size))
-}
-
-fn same_slice(a: &BufferSlice, b: &BufferSlice) -> bool {
-    a.buffer.is_same(&b.buffer) && a.offset == b.offset && a.size == b.size
-}
-
-fn same_slices(a: &[BufferSlice], b: &[BufferSlice]) -> bool {
-    a.len() == b.len() && a.iter().zip(b).all(|(a, b)| same_slice(a, b))
-}
-
-fn same_groups(a: &Draw<'_>, b: &Draw<'_>) -> bool {
-    let same = a.bind_groups.iter().zip(b.bind_groups);
-    a.bind_groups.len() == b.bind_groups.len()
-        && a.dynamic_offsets == b.dynamic_offsets
-        && same.into_iter().all(|(a, b)| a.is_same(b))
 }

@@ -9,6 +9,7 @@ mod images;
 mod layers;
 mod queries;
 mod run;
+mod survey;
 
 pub(crate) use attachments::{Attachments, Use};
 pub use draw::Draw;

@@ -1,19 +1,20 @@
 //! Running a pass: objects become plain data, the core draws, results go back into the objects.
 
 use super::attachments::Attachments;
-use super::check::{check_buffer_uses, check_draw, check_uses, check_vertices};
-use super::draw_data::{DrawData, DrawMemory, Groups, PART_DRAWS};
+use super::check::{DrawCheck, check_buffer_uses, check_uses, check_vertices};
+use super::draw_data::{DrawData, DrawMemory, Groups};
 use super::images::Taken;
 use super::layers::Layer;
 use super::queries::Parts;
-use super::{Draw, PassErrorKind, RenderPass, RenderPassError};
+use super::{PassErrorKind, RenderPass, RenderPassError};
 use crate::bind_group::BindingResource;
 use crate::buffer::StoredBuffers;
 use crate::texture::{StoredTextures, Texture, check_texture_conflicts};
 use crate::{Context, Device, LoadOp, Statistics};
-use estampe_core::{Discards, PassControl, RenderTarget, recycled};
+use estampe_core::{
+    Discards, DrawList, DrawNeeds, OcclusionQueries, PassControl, RenderTarget, recycled,
+};
 use estampe_types::shader::StoppedBatches;
-use std::sync::Arc;
 
 /// Draws a pass.
 pub(crate) fn render(
@@ -28,13 +29,11 @@ pub(crate) fn check(device: &Device, pass: &RenderPass<'_>) -> Result<(), Render
     let check = || {
         let layers = Layer::of(pass)?;
         let of_layers = passes(pass, &layers);
-        let (attachments, groups) = check_objects(device, each_pass(pass, &of_layers))?;
-        // The core's rules do not depend on what is bound.
-        let resources = vec![Arc::default(); groups.distinct.len()];
-        let data = DrawData::new(device.context(), pass.draws, &groups, &resources);
-        let draws = data.draws(device.context(), pass.draws);
-        let core_pass = core_pass(pass, attachments[0].loads(), &draws);
-        Ok(attachments[0].with_shape(|shape| core_pass.check(shape))?)
+        let mut memory = device.take_draw_memory();
+        check_objects(device, each_pass(pass, &of_layers), &mut memory.data)?;
+        memory.data.needs()?;
+        device.keep_draw_memory(memory);
+        Ok(())
     };
     check().map_err(|kind| of_pass(pass, kind))
 }
@@ -63,22 +62,31 @@ fn each_pass<'s, 'a>(
     }
 }
 
-/// Checks the attachments of each layer, draws and bind groups.
+/// Checks the attachments of each layer, draws and bind groups, and notes what was found of draws.
 fn check_objects<'a>(
     device: &Device,
     passes: &'a [RenderPass<'_>],
+    data: &mut DrawData,
 ) -> Result<(Vec<Attachments<'a>>, Groups<'a>), PassErrorKind> {
     let limits = device.limits();
     let attachments = passes.iter().map(|pass| Attachments::check(pass, limits));
     let attachments = attachments.collect::<Result<Vec<_>, _>>()?;
     // All layers have the same draws, and attachments of the same formats.
     let pass = &passes[0];
-    check_draws(device, pass.draws, &attachments[0])?;
-    check_vertices(pass.draws, limits)?;
+    let check = DrawCheck {
+        attachments: &attachments[0],
+        limits,
+    };
+    let queries = pass.occlusion_queries.map_or(0, OcclusionQueries::count);
+    data.survey(device.context(), pass.draws, &check, queries)?;
+    let vertices = data.surveys().map(|part| part.vertices);
+    if vertices.fold(0, u64::saturating_add) > limits.max_pass_vertices {
+        check_vertices(pass.draws, limits)?;
+    }
     if let Some(queries) = pass.range_queries {
         queries.check(pass.draws.len())?;
     }
-    let groups = Groups::of(pass.draws);
+    let groups = Groups::of(pass.draws, data.changes());
     for group in &groups.distinct {
         for layer in &attachments {
             check_uses(group, layer)?;
@@ -89,33 +97,12 @@ fn check_objects<'a>(
     Ok((attachments, groups))
 }
 
-/// Checks the draws of a pass, on all threads.
-fn check_draws(
-    device: &Device,
-    draws: &[Draw<'_>],
-    attachments: &Attachments<'_>,
-) -> Result<(), PassErrorKind> {
-    let parts = draws.chunks(PART_DRAWS).enumerate();
-    let parts = parts.map(|(part, draws)| (part * PART_DRAWS, draws, Ok(())));
-    let mut parts: Vec<_> = parts.collect();
-    device
-        .context()
-        .for_each(&mut parts, |(first, draws, checked)| {
-            let mut draws = (*first..).zip(*draws);
-            *checked = draws.try_for_each(|(number, draw)| {
-                check_draw(number, draw, attachments, device.limits())
-            });
-        });
-    // The first draw that breaks a rule is the one that is named.
-    parts.into_iter().try_for_each(|(.., checked)| checked)
-}
-
 pub(crate) type Loads = (Vec<LoadOp<[f64; 4]>>, LoadOp<f32>, LoadOp<u8>);
 
 pub(crate) fn core_pass<'a>(
     pass: &RenderPass<'a>,
     (load_colors, load_depth, load_stencil): Loads,
-    draws: &'a [estampe_core::Draw<'a>],
+    draws: DrawList<'a>,
 ) -> estampe_core::RenderPass<'a> {
     estampe_core::RenderPass {
         load_colors,
@@ -133,23 +120,23 @@ fn run(device: &Device, pass: &RenderPass<'_>) -> Result<Statistics, PassErrorKi
     let (context, limits) = (device.context(), device.limits());
     let layers = Layer::of(pass)?;
     let of_layers = passes(pass, &layers);
-    let (attachments, groups) = check_objects(device, each_pass(pass, &of_layers))?;
+    let DrawMemory { mut data, draws } = device.take_draw_memory();
+    let (attachments, groups) = check_objects(device, each_pass(pass, &of_layers), &mut data)?;
     let textures = reserved_order(&attachments, &groups);
     let reserved: Vec<_> = textures.iter().map(|texture| texture.reserve()).collect();
     let mut stores = StoredTextures::in_place();
     let buffers =
         StoredBuffers::in_place(&groups.distinct).map_err(PassErrorKind::StorageBuffer)?;
     let resources = groups.resources(context, (&mut stores, &buffers))?;
-    let DrawMemory { mut data, draws } = device.take_draw_memory();
     data.fill(context, pass.draws, &groups, &resources);
-    let mut draws = recycled(draws);
+    let mut draws: Vec<Vec<estampe_core::Draw<'_>>> = draws;
     data.draws_into(context, pass.draws, &mut draws);
     let mut core_pass = estampe_core::RenderPass {
         discards: attachments[0].discards(),
-        ..core_pass(pass, attachments[0].loads(), &draws)
+        ..core_pass(pass, attachments[0].loads(), DrawList::Parts(&draws))
     };
     // Before anything is taken, so that a pass that is refused changes nothing.
-    attachments[0].with_shape(|shape| core_pass.check(shape))?;
+    let needs = data.needs()?;
     let taken = take_all(context, &attachments)?;
     let layers = attachments.iter().zip(taken);
     let (mut targets, depths_newest): (Vec<_>, Vec<_>) =
@@ -157,8 +144,8 @@ fn run(device: &Device, pass: &RenderPass<'_>) -> Result<Statistics, PassErrorKi
     if let ([layer], [target]) = (&attachments[..], &mut targets[..]) {
         core_pass.discards.colors |= layer.store_rows(target);
     }
-    let stops = stops(pass);
-    let drawn = draw(device, &mut targets, pass, core_pass);
+    let stops = stops(pass, data.changes());
+    let drawn = draw(device, &mut targets, pass, (core_pass, needs));
     let mut stopped = None;
     for stops in stops.iter().rev() {
         if stops.end_pass() {
@@ -173,7 +160,7 @@ fn run(device: &Device, pass: &RenderPass<'_>) -> Result<Statistics, PassErrorKi
         finished = finished.and(layer.finish(context, target, newest));
     }
     finished?;
-    let draws = recycled(draws);
+    let draws = draws.into_iter().map(recycled).collect();
     let mut memory = DrawMemory { data, draws };
     memory.clear(context);
     device.keep_draw_memory(memory);
@@ -223,9 +210,9 @@ impl Stops<'_> {
     }
 }
 
-/// The first draw of each pipeline in a row.
-fn stops<'a>(pass: &RenderPass<'a>) -> Vec<Stops<'a>> {
-    let draws = pass.draws.iter().enumerate();
+/// The first draw of each pipeline in a row; draws with some numbers are among them all.
+fn stops<'a>(pass: &RenderPass<'a>, changes: impl Iterator<Item = usize>) -> Vec<Stops<'a>> {
+    let draws = changes.map(|number| (number, &pass.draws[number]));
     let firsts = draws.filter(|(draw, of)| {
         let before = draw
             .checked_sub(1)
@@ -252,13 +239,14 @@ pub(crate) fn prepared<T>(
 ) -> Result<T, PassErrorKind> {
     let layers = Layer::of(pass)?;
     let of_layers = passes(pass, &layers);
-    let (attachments, groups) = check_objects(device, each_pass(pass, &of_layers))?;
+    let mut data = DrawData::default();
+    let (attachments, groups) = check_objects(device, each_pass(pass, &of_layers), &mut data)?;
     let textures = reserved_order(&attachments, &groups);
     let reserved: Vec<_> = textures.iter().map(|texture| texture.reserve()).collect();
     let buffers = StoredBuffers::copies(&groups.distinct).map_err(PassErrorKind::StorageBuffer)?;
     let stores = (&mut StoredTextures::copies(), &buffers);
     let resources = groups.resources(device.context(), stores)?;
-    let data = DrawData::new(device.context(), pass.draws, &groups, &resources);
+    data.fill(device.context(), pass.draws, &groups, &resources);
     let used = use_data(&attachments, &data);
     drop(reserved);
     Ok(used)
@@ -290,11 +278,12 @@ fn draw(
     device: &Device,
     layers: &mut [RenderTarget],
     pass: &RenderPass<'_>,
-    core_pass: estampe_core::RenderPass<'_>,
+    (core_pass, needs): (estampe_core::RenderPass<'_>, DrawNeeds),
 ) -> Result<Statistics, estampe_core::RenderPassError> {
     let Some(queries) = pass.range_queries else {
-        return device.context().render_layers(layers, &core_pass);
+        return device.context().render_layers(layers, &core_pass, needs);
     };
+    let draws: Vec<_> = core_pass.draws.iter().cloned().collect();
     queries.reset();
     let mut parts = Parts::new(queries, pass.draws.len());
     let mut statistics = Statistics::default();
@@ -309,7 +298,7 @@ fn draw(
                 progress: Some(&begun),
                 ..core_pass.control
             },
-            draws: &core_pass.draws[cut[0]..cut[1]],
+            draws: DrawList::from(&draws[cut[0]..cut[1]]),
             // The next part goes on with the same images.
             discards: Discards::default(),
             ..if number == 0 {
@@ -325,7 +314,7 @@ fn draw(
             }
         };
         parts.times.push(device.age());
-        let part = device.context().render_layers(layers, &part)?;
+        let part = device.context().render_layers(layers, &part, needs)?;
         statistics += part;
         parts.statistics.push(part);
     }

@@ -26,7 +26,7 @@ pub(crate) fn inspect_stages(
         // Draws without a geometry shader go to the first layer.
         let attachments = &layers[0];
         let draws = data.draws(device.context(), pass.draws);
-        let core_pass = core_pass(pass, attachments.loads(), &draws);
+        let core_pass = core_pass(pass, attachments.loads(), draws[..].into());
         let checked = attachments.with_shape(|shape| core_pass.check(shape));
         checked.map_err(|error| refused(pass, error.into()))?;
         check_stages(pass)?;
