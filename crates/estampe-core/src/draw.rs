@@ -71,6 +71,8 @@ impl Memory {
 struct Lists {
     states: Vec<DrawState<'static>>,
     sub_draws: Vec<SubDraw<'static>>,
+    /// The first sub-draw of each state that tiles read; it borrows nothing.
+    first_of_states: Vec<usize>,
     vertex_jobs: Vec<VertexJob<'static>>,
     chunk_jobs: Vec<ChunkJob<'static>>,
     tile_states: Vec<TileState<'static>>,
@@ -228,6 +230,7 @@ impl Context {
         let mut batch = DrawBatch::new(
             recycled(std::mem::take(&mut memory.lists.states)),
             recycled(std::mem::take(&mut memory.lists.sub_draws)),
+            std::mem::take(&mut memory.lists.first_of_states),
         );
         let mut clear = Clear::new(target, pass);
         let mut is_cancelled = false;
@@ -281,7 +284,7 @@ impl Context {
                 memory,
             )?;
             statistics.raster += start.elapsed();
-            statistics.vertices_shaded += batch.total_vertices() as u64;
+            statistics.vertices_shaded += batch.shaded as u64;
             statistics.primitives_in += batch.invisible_primitives;
             statistics.primitives_culled += batch.invisible_primitives;
             clear = Clear::default();
@@ -290,6 +293,7 @@ impl Context {
         }
         memory.lists.states = recycled(batch.states);
         memory.lists.sub_draws = recycled(batch.sub_draws);
+        memory.lists.first_of_states = batch.tile_states;
         if is_cancelled {
             return Err(RenderPassError::Cancelled);
         }
@@ -323,18 +327,21 @@ impl Context {
         (batch, group): (&DrawBatch<'_>, Range<usize>),
         memory: &mut Memory,
     ) {
-        memory.vertices.resize_for(batch.spans(group.clone()));
+        memory.vertices.resize_for(&batch.group);
         let mut jobs = recycled(std::mem::take(&mut memory.lists.vertex_jobs));
         let spans = batch.spans(group.clone());
-        let all = spans.clone().map(|span| span.count).sum();
-        let size = part_size(all, executor.threads(), VERTEX_CHUNK);
-        memory.vertices.split(spans, size, &mut jobs);
+        let size = part_size(batch.group.count, executor.threads(), VERTEX_CHUNK);
+        memory
+            .vertices
+            .split((&batch.group, spans), size, &mut jobs);
         executor.for_each(&mut jobs, &memory.shading, |job, scratch| {
-            let sub_draw = &batch.sub_draws[group.start + job.sub_draw];
-            let source = sub_draw.vertex_source();
-            let transform = &batch.plan(sub_draw).transform;
-            let out = &mut job.out;
-            shade(self.level, &source, transform, job.first, out, scratch);
+            let sub_draws = &batch.sub_draws[group.clone()][job.sub_draws.clone()];
+            for sub_draw in sub_draws {
+                let source = sub_draw.vertex_source(batch.listed(sub_draw));
+                let transform = &batch.plan(sub_draw).transform;
+                let mut out = job.out.take(&sub_draw.span);
+                shade(self.level, &source, transform, job.first, &mut out, scratch);
+            }
         });
         memory.lists.vertex_jobs = recycled(jobs);
     }
@@ -376,6 +383,7 @@ impl Context {
                         batch.joins([part.sub_draw, next.sub_draw], level, samples)
                     });
                     let (plan, vertices) = (batch.plan(sub_draw), vertices.of_span(&sub_draw.span));
+                    let vertices = (vertices, batch.listed(sub_draw));
                     let work = sub_draw.run_work(level, plan, vertices, part.primitives);
                     let neighbours = Neighbours {
                         joins_last,
@@ -438,14 +446,7 @@ impl Context {
         let mut states = recycled(std::mem::take(&mut memory.lists.tile_states));
         batch.tile_states(&facts, &mut states);
         let mut plans = recycled(std::mem::take(&mut memory.lists.plans));
-        for state in &states {
-            let sub_draws = batch.sub_draws[state.sub_draws.clone()].iter();
-            plans.extend(sub_draws.map(|sub_draw| TilePlan {
-                state,
-                bindings: sub_draw.bindings,
-                varyings: memory.vertices.of_span(&sub_draw.span).varyings,
-            }));
-        }
+        batch.tile_plans(executor, (&states, &memory.vertices), &mut plans);
         let mut jobs = recycled(std::mem::take(&mut memory.lists.tile_jobs));
         let (grid, size) = (target.grid(), target.size);
         let stores = tile_pass::jobs_of(target, is_last && !discards.depth_stencil, &mut jobs);

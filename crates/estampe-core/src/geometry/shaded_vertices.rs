@@ -8,6 +8,7 @@
 
 use crate::bounds::primitives::{VertexRef, WindowVertex};
 use estampe_simd::advise_huge_pages;
+use std::ops::Range;
 
 /// A window x that says "this vertex must be clipped"; no snapped coordinate reaches it.
 pub(crate) const NEEDS_CLIPPING: i32 = i32::MIN;
@@ -46,15 +47,40 @@ pub(crate) struct VertexSpan {
     pub(crate) has_point_sizes: bool,
 }
 
-impl VertexSpan {
-    /// The span that follows this one in its group, of no vertices.
+/// The vertices of a group of sub-draws, and what is kept of some.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct GroupVertices {
+    /// The number of the group in its batch.
+    pub(crate) group: usize,
+    pub(crate) count: usize,
+    /// Scalars of all varyings.
+    varyings: usize,
+    keeps_clip_positions: bool,
+    has_point_sizes: bool,
+}
+
+impl GroupVertices {
+    /// The group that follows, of no vertices.
     pub(crate) fn following(&self) -> Self {
         Self {
-            group: self.group,
-            first: self.first + self.count,
-            first_varying: self.first_varying + self.count * self.varying_scalars,
+            group: self.group + 1,
             ..Self::default()
         }
+    }
+
+    /// Adds a sub-draw's vertices; says where they are.
+    pub(crate) fn place(&mut self, span: VertexSpan) -> VertexSpan {
+        let placed = VertexSpan {
+            group: self.group,
+            first: self.count,
+            first_varying: self.varyings,
+            ..span
+        };
+        self.count += span.count;
+        self.varyings += span.count * span.varying_scalars;
+        self.keeps_clip_positions |= span.keeps_clip_positions;
+        self.has_point_sizes |= span.has_point_sizes;
+        placed
     }
 }
 
@@ -69,15 +95,47 @@ pub(crate) struct ShadedSlice<'a> {
     pub(crate) point_size: &'a mut [f32],
 }
 
-/// A run of a sub-draw's vertices for one worker.
+impl<'a> ShadedSlice<'a> {
+    /// Takes the first vertices off with all that is kept of any of their group, of which there are
+    /// so many scalars of varyings.
+    fn take_all(&mut self, count: usize, varyings: usize) -> Self {
+        let kept = |list: &[_]| if list.is_empty() { 0 } else { count };
+        let clip = kept(self.clip);
+        let sizes = if self.point_size.is_empty() { 0 } else { count };
+        Self {
+            window: take(&mut self.window, count),
+            clip: take(&mut self.clip, clip),
+            varyings: take(&mut self.varyings, varyings),
+            point_size: take(&mut self.point_size, sizes),
+        }
+    }
+
+    /// Takes the vertices of a span off, or those of its part that are all there are.
+    pub(crate) fn take(&mut self, span: &VertexSpan) -> Self {
+        let count = span.count.min(self.window.len());
+        let mut taken = self.take_all(count, count * span.varying_scalars);
+        if !span.keeps_clip_positions {
+            taken.clip = &mut [];
+        }
+        if !span.has_point_sizes {
+            taken.point_size = &mut [];
+        }
+        taken
+    }
+}
+
+/// A run of vertices for one worker: a part of a sub-draw's, or those of several.
 #[derive(Debug)]
 pub(crate) struct VertexJob<'a> {
-    /// The sub-draw's number in the batch.
-    pub(crate) sub_draw: usize,
-    /// The first vertex, counted in the sub-draw.
+    /// The sub-draws' numbers in the group.
+    pub(crate) sub_draws: Range<usize>,
+    /// The first vertex, counted in the first sub-draw.
     pub(crate) first: u32,
     pub(crate) out: ShadedSlice<'a>,
 }
+
+/// Vertices of several sub-draws that one worker shades at a time, at most.
+const TOGETHER: usize = 512;
 
 /// The shaded vertices of one sub-draw.
 #[derive(Debug, Clone, Copy)]
@@ -96,75 +154,77 @@ pub(crate) struct SubDrawVertices<'a> {
 }
 
 impl ShadedVertices {
-    /// Makes room for the spans, which are all of a group. The vertices of the group before are
-    /// overwritten, but for their varyings.
-    pub(crate) fn resize_for<'s>(&mut self, spans: impl Iterator<Item = &'s VertexSpan>) {
-        let (mut end, mut has_positions, mut has_sizes) = (VertexSpan::default(), false, false);
-        for span in spans {
-            end = span.following();
-            has_positions |= span.keeps_clip_positions;
-            has_sizes |= span.has_point_sizes;
+    /// Makes room for the vertices of a group. Those of the group before are overwritten, but for
+    /// their varyings.
+    pub(crate) fn resize_for(&mut self, group: &GroupVertices) {
+        grow(&mut self.window, group.count, [0; 4]);
+        if self.varyings.len() <= group.group {
+            self.varyings.resize_with(group.group + 1, Vec::new);
         }
-        grow(&mut self.window, end.first, [0; 4]);
-        if self.varyings.len() <= end.group {
-            self.varyings.resize_with(end.group + 1, Vec::new);
-        }
-        grow(&mut self.varyings[end.group], end.first_varying, 0.0);
-        let positions = if has_positions { end.first } else { 0 };
-        grow(&mut self.clip, positions, [0; 4]);
-        grow(
-            &mut self.point_size,
-            if has_sizes { end.first } else { 0 },
-            1.0,
-        );
+        grow(&mut self.varyings[group.group], group.varyings, 0.0);
+        let kept = |is_kept: bool| if is_kept { group.count } else { 0 };
+        grow(&mut self.clip, kept(group.keeps_clip_positions), [0; 4]);
+        grow(&mut self.point_size, kept(group.has_point_sizes), 1.0);
     }
 
-    /// Cuts the vertices of the spans, which are all of a group, into jobs of at most `size`.
+    /// Cuts the vertices of the spans, which are all of a group, into jobs: a large span into parts
+    /// of at most `size`, small ones together.
     pub(crate) fn split<'a, 's>(
         &'a mut self,
-        spans: impl Iterator<Item = &'s VertexSpan> + Clone,
+        (group, spans): (&GroupVertices, impl Iterator<Item = &'s VertexSpan>),
         size: usize,
         jobs: &mut Vec<VertexJob<'a>>,
     ) {
-        // Lists that are kept for no span may be of any length.
-        let has_positions = spans.clone().any(|span| span.keeps_clip_positions);
-        let has_sizes = spans.clone().any(|span| span.has_point_sizes);
-        let group = spans.clone().next().map_or(0, |span| span.group);
         let mut rest = ShadedSlice {
             window: &mut self.window,
             clip: &mut self.clip,
-            varyings: self.varyings.get_mut(group).map_or(&mut [], |list| list),
+            varyings: self
+                .varyings
+                .get_mut(group.group)
+                .map_or(&mut [], |list| list),
             point_size: &mut self.point_size,
         };
-        for (sub_draw, span) in spans.enumerate() {
-            for first in (0..span.count).step_by(size) {
-                let count = size.min(span.count - first);
-                let clip = take(&mut rest.clip, if has_positions { count } else { 0 });
-                let point_size = take(&mut rest.point_size, if has_sizes { count } else { 0 });
-                let out = ShadedSlice {
-                    window: take(&mut rest.window, count),
-                    clip: if span.keeps_clip_positions {
-                        clip
-                    } else {
-                        &mut []
-                    },
-                    varyings: take(&mut rest.varyings, count * span.varying_scalars),
-                    point_size: if span.has_point_sizes {
-                        point_size
-                    } else {
-                        &mut []
-                    },
-                };
-                debug_assert!(
-                    u32::try_from(first).is_ok(),
-                    "a sub-draw of {first} vertices"
-                );
-                jobs.push(VertexJob {
-                    sub_draw,
-                    first: u32::try_from(first).unwrap_or(u32::MAX),
-                    out,
-                });
+        // Lists that are kept for no span may be of any length.
+        if !group.keeps_clip_positions {
+            rest.clip = &mut [];
+        }
+        if !group.has_point_sizes {
+            rest.point_size = &mut [];
+        }
+        let together = size.min(TOGETHER);
+        let (mut first, mut next) = (0, 0);
+        // Vertices and scalars of varyings of the spans that wait to be one job.
+        let mut waiting = [0, 0];
+        let mut job = |sub_draws: Range<usize>, first: usize, [count, varyings]: [usize; 2]| {
+            debug_assert!(
+                u32::try_from(first).is_ok(),
+                "a sub-draw of {first} vertices"
+            );
+            jobs.push(VertexJob {
+                sub_draws,
+                first: u32::try_from(first).unwrap_or(u32::MAX),
+                out: rest.take_all(count, varyings),
+            });
+        };
+        for span in spans {
+            if waiting[0] > 0 && waiting[0] + span.count > together {
+                job(first..next, 0, std::mem::take(&mut waiting));
+                first = next;
             }
+            next += 1;
+            if span.count <= together {
+                waiting[0] += span.count;
+                waiting[1] += span.count * span.varying_scalars;
+                continue;
+            }
+            for from in (0..span.count).step_by(size) {
+                let count = size.min(span.count - from);
+                job(first..next, from, [count, count * span.varying_scalars]);
+            }
+            first = next;
+        }
+        if waiting[0] > 0 {
+            job(first..next, 0, waiting);
         }
     }
 
@@ -254,15 +314,16 @@ mod tests {
     fn lists_that_nobody_needs_may_be_shorter() {
         let mut vertices = ShadedVertices::default();
         for (count, keeps_clip_positions) in [(3, true), (9, false), (5, true)] {
-            let span = VertexSpan {
+            let mut group = GroupVertices::default();
+            let span = group.place(VertexSpan {
                 count,
                 keeps_clip_positions,
                 has_point_sizes: keeps_clip_positions,
                 ..VertexSpan::default()
-            };
-            vertices.resize_for([span].iter());
+            });
+            vertices.resize_for(&group);
             let mut jobs = Vec::new();
-            vertices.split([span].iter(), 100, &mut jobs);
+            vertices.split((&group, [span].iter()), 100, &mut jobs);
             assert_eq!(jobs[0].out.window.len(), count);
             let kept = if keeps_clip_positions { count } else { 0 };
             assert_eq!(jobs[0].out.clip.len(), kept);
@@ -274,18 +335,20 @@ mod tests {
     fn varyings_of_the_groups_before_are_kept() {
         let mut vertices = ShadedVertices::default();
         let mut spans = Vec::new();
-        for (group, count) in [3, 500, 40].into_iter().enumerate() {
-            let span = VertexSpan {
-                group,
+        let mut group = GroupVertices::default();
+        for (number, count) in [3, 500, 40].into_iter().enumerate() {
+            let span = group.place(VertexSpan {
                 count,
                 varying_scalars: 2,
                 ..VertexSpan::default()
-            };
-            vertices.resize_for([span].iter());
+            });
+            assert_eq!(span.group, number);
+            vertices.resize_for(&group);
             let mut jobs = Vec::new();
-            vertices.split([span].iter(), count, &mut jobs);
-            jobs[0].out.varyings.fill(group as f32);
-            spans.push((group, span));
+            vertices.split((&group, [span].iter()), count, &mut jobs);
+            jobs[0].out.varyings.fill(number as f32);
+            spans.push((number, span));
+            group = group.following();
         }
         for (group, span) in spans {
             for vertex in 0..u32::try_from(span.count).unwrap() {
@@ -298,37 +361,48 @@ mod tests {
     #[test]
     fn jobs_and_spans_share_the_same_places() {
         let mut vertices = ShadedVertices::default();
-        let mut spans = Vec::new();
-        let mut span = VertexSpan::default();
-        for (count, varying_scalars, has_point_sizes) in [(5, 2, false), (3, 0, true), (4, 3, true)]
-        {
-            span = VertexSpan {
+        let mut group = GroupVertices::default();
+        let kinds = [(5, 2, false), (3, 0, true), (4, 3, true)];
+        let spans = kinds.map(|(count, varying_scalars, has_point_sizes)| {
+            group.place(VertexSpan {
                 count,
                 varying_scalars,
                 keeps_clip_positions: has_point_sizes,
                 has_point_sizes,
-                ..span.following()
-            };
-            spans.push(span);
-        }
-        // Twice, because memory is used again.
-        for turn in 0..2 {
-            vertices.resize_for(spans.iter());
+                ..VertexSpan::default()
+            })
+        });
+        // Several times, because memory is used again.
+        let by_two = [(0, 0), (0, 2), (0, 4), (1, 0), (1, 2), (2, 0), (2, 2)];
+        let cases: [(usize, &[(usize, u32)]); 4] = [
+            (2, &by_two),
+            (4, &[(0, 0), (0, 4), (1, 0), (2, 0)]),
+            (7, &[(0, 0), (1, 0)]),
+            (100, &[(0, 0)]),
+        ];
+        for (turn, (size, expected)) in (0..).zip(cases) {
+            vertices.resize_for(&group);
             let mut jobs = Vec::new();
-            vertices.split(spans.iter(), 2, &mut jobs);
-            let pieces = jobs.iter().map(|job| (job.sub_draw, job.first));
-            let expected = [(0, 0), (0, 2), (0, 4), (1, 0), (1, 2), (2, 0), (2, 2)];
-            assert!(pieces.eq(expected), "{jobs:?}");
+            vertices.split((&group, spans.iter()), size, &mut jobs);
+            let pieces = jobs.iter().map(|job| (job.sub_draws.start, job.first));
+            assert!(pieces.eq(expected.iter().copied()), "{jobs:?}");
             for job in &mut jobs {
-                let stamp = u32::try_from(job.sub_draw).unwrap() * 100 + job.first + turn;
-                job.out.window.fill([stamp; 4]);
-                job.out.clip.fill([stamp; 4]);
-                job.out.varyings.fill(stamp as f32);
-                job.out.point_size.fill(stamp as f32);
+                for number in job.sub_draws.clone() {
+                    let out = job.out.take(&spans[number]);
+                    // The third vertex of each lies in its part that begins with the third one, or
+                    // in its first part.
+                    let part = if job.first > 2 { 9 } else { 0 };
+                    let stamp = u32::try_from(number).unwrap() * 100 + part + turn;
+                    out.window.fill([stamp; 4]);
+                    out.clip.fill([stamp; 4]);
+                    out.varyings.fill(stamp as f32);
+                    out.point_size.fill(stamp as f32);
+                }
+                assert!(job.out.window.is_empty() && job.out.varyings.is_empty());
             }
             for (number, span) in (0..).zip(&spans) {
                 let found = vertices.of_span(span);
-                let stamp = number * 100 + turn + 2;
+                let stamp = number * 100 + turn;
                 assert_eq!(found.window[2], [stamp; 4]);
                 assert_eq!(found.window.len(), span.count);
                 let varyings = vec![stamp as f32; span.varying_scalars];

@@ -2,38 +2,53 @@
 
 use super::chunk_plan::ChunkPart;
 use super::draw_state::DrawState;
-use super::sub_draw::SubDraw;
-use super::tile_plan::{TargetFacts, TileState};
+use super::sub_draw::{ListedVertices, SubDraw};
+use super::tile_plan::{TargetFacts, TilePlan, TileState};
 use crate::attachment::RenderTarget;
+use crate::bounds::chunk::number;
 use crate::commands::Draw;
 use crate::geometry::plan::GeometryPlan;
-use crate::geometry::shaded_vertices::VertexSpan;
+use crate::geometry::shaded_vertices::{GroupVertices, ShadedVertices, VertexSpan};
 use crate::pipeline::primitive_kind::PrimitiveKind;
+use crate::schedule::Executor;
 use crate::tile_path::{PathFacts, TilePath};
 use estampe_simd::{LANES, Level};
 use std::ops::Range;
+
+/// Sub-draws whose plans one thread makes.
+const PART_PLANS: usize = 512;
 
 /// Sub-draws in submission order, and the states that they share.
 #[derive(Debug, Default)]
 pub(crate) struct DrawBatch<'a> {
     pub(crate) states: Vec<DrawState<'a>>,
     pub(crate) sub_draws: Vec<SubDraw<'a>>,
+    /// The first sub-draw of each state that tiles read, which sub-draws in a row share.
+    pub(crate) tile_states: Vec<usize>,
+    listed: Vec<ListedVertices>,
+    /// Vertices that shaders of the caller's shade.
+    pub(crate) shaded: usize,
     /// Primitives of the draws that are in no sub-draw, because they have no extent.
     pub(crate) invisible_primitives: u64,
     /// Vertices and primitives of the sub-draws.
     pub(super) vertices: usize,
     pub(super) primitives: usize,
-    /// The number of the group at hand, and its first sub-draw.
-    group: usize,
+    /// The vertices of the group at hand, and its first sub-draw.
+    pub(crate) group: GroupVertices,
     first_of_group: usize,
 }
 
 impl<'a> DrawBatch<'a> {
     /// An empty batch in the memory of others.
-    pub(crate) fn new(states: Vec<DrawState<'a>>, sub_draws: Vec<SubDraw<'a>>) -> Self {
+    pub(crate) fn new(
+        states: Vec<DrawState<'a>>,
+        sub_draws: Vec<SubDraw<'a>>,
+        tile_states: Vec<usize>,
+    ) -> Self {
         Self {
             states,
             sub_draws,
+            tile_states,
             ..Self::default()
         }
     }
@@ -42,9 +57,11 @@ impl<'a> DrawBatch<'a> {
     pub(crate) fn clear(&mut self) {
         self.states.clear();
         self.sub_draws.clear();
-        self.invisible_primitives = 0;
+        self.tile_states.clear();
+        self.listed.clear();
+        (self.shaded, self.invisible_primitives) = (0, 0);
         (self.vertices, self.primitives) = (0, 0);
-        (self.group, self.first_of_group) = (0, 0);
+        (self.group, self.first_of_group) = (GroupVertices::default(), 0);
     }
 
     /// Begins a group of sub-draws, whose vertices in the window take the place of those of the
@@ -52,7 +69,7 @@ impl<'a> DrawBatch<'a> {
     pub(super) fn begin_group(&mut self) -> usize {
         // The group before may have got no sub-draws.
         if self.sub_draws.len() > self.first_of_group {
-            self.group += 1;
+            self.group = self.group.following();
             self.first_of_group = self.sub_draws.len();
         }
         self.first_of_group
@@ -73,23 +90,37 @@ impl<'a> DrawBatch<'a> {
     }
 
     /// Adds a sub-draw, after whose vertices lie those of the one before.
-    pub(super) fn push(&mut self, mut sub_draw: SubDraw<'a>) {
+    pub(super) fn push(&mut self, mut sub_draw: SubDraw<'a>, listed: Option<Box<ListedVertices>>) {
         let interface = sub_draw.draw.pipeline.interface();
-        let of_group = &self.sub_draws[self.first_of_group..];
-        let begin = VertexSpan {
-            group: self.group,
-            ..VertexSpan::default()
-        };
-        let after = of_group.last().map_or(begin, |last| last.span.following());
-        sub_draw.span = VertexSpan {
-            count: sub_draw.total_vertices(),
+        let vertices = sub_draw.total_vertices();
+        sub_draw.span = self.group.place(VertexSpan {
+            count: vertices,
             varying_scalars: interface.varyings.len(),
             // Filled triangles compute them again for the few vertices that need clipping.
             keeps_clip_positions: !self.state(&sub_draw).geometry.fills_triangles(),
             has_point_sizes: interface.writes_point_size,
-            ..after
-        };
+            ..VertexSpan::default()
+        });
+        self.vertices += vertices;
+        self.primitives += sub_draw.total_primitives();
+        if !sub_draw.draw.pipeline.has_finished_vertices() {
+            self.shaded += vertices;
+        }
+        sub_draw.listed = listed.map(|listed| {
+            self.listed.push(*listed);
+            number(self.listed.len() - 1)
+        });
+        let last = self.sub_draws.last();
+        if !last.is_some_and(|last| last.has_tile_state_of(&sub_draw)) {
+            self.tile_states.push(self.sub_draws.len());
+        }
+        sub_draw.tile_state = number(self.tile_states.len() - 1);
         self.sub_draws.push(sub_draw);
+    }
+
+    /// A sub-draw's lists of vertices, if it has some.
+    pub(crate) fn listed(&self, sub_draw: &SubDraw<'_>) -> Option<&ListedVertices> {
+        sub_draw.listed.map(|listed| &self.listed[listed as usize])
     }
 
     /// A sub-draw's state.
@@ -112,7 +143,8 @@ impl<'a> DrawBatch<'a> {
             tests_depth_alone: false,
             cuts_samples: self.plan(a).cut_samples.is_some(),
         };
-        a.rasterizes_like(b) && TilePath::choose(a.draw.pipeline, &facts).joins_draws()
+        (a.tile_state == b.tile_state || a.rasterizes_like(b))
+            && TilePath::choose(a.draw.pipeline, &facts).joins_draws()
     }
 
     /// The packets of triangles and of lines of a chunk, if none is culled.
@@ -131,34 +163,43 @@ impl<'a> DrawBatch<'a> {
         [triangles, lines]
     }
 
-    /// Resolves the state that tiles read; sub-draws in a row share it.
+    /// Resolves the states that tiles read.
     pub(crate) fn tile_states<'b>(&'b self, target: &TargetFacts, states: &mut Vec<TileState<'b>>) {
-        let mut last: Option<&SubDraw<'_>> = None;
-        for (number, sub_draw) in self.sub_draws.iter().enumerate() {
-            match states.last_mut() {
-                Some(state) if last.is_some_and(|last| last.has_tile_state_of(sub_draw)) => {
-                    state.sub_draws.end = number + 1;
-                }
-                _ => {
-                    let plan = self.plan(sub_draw);
-                    states.push(TileState::new(number, sub_draw.draw, plan, target));
-                }
-            }
-            last = Some(sub_draw);
+        states.extend(self.tile_states.iter().map(|&first| {
+            let sub_draw = &self.sub_draws[first];
+            TileState::new(sub_draw.draw, self.plan(sub_draw), target)
+        }));
+    }
+
+    /// The plans of sub-draws on the tile side, whose states were resolved, made on all threads.
+    pub(crate) fn tile_plans<'b>(
+        &'b self,
+        executor: &Executor,
+        (states, vertices): (&'b [TileState<'b>], &'b ShadedVertices),
+        plans: &mut Vec<TilePlan<'b>>,
+    ) {
+        let plan = |sub_draw: &'b SubDraw<'a>| TilePlan {
+            state: &states[sub_draw.tile_state as usize],
+            bindings: sub_draw.bindings(),
+            varyings: vertices.of_span(&sub_draw.span).varyings,
+        };
+        if executor.threads() == 1 || self.sub_draws.len() <= PART_PLANS {
+            plans.extend(self.sub_draws.iter().map(plan));
+            return;
         }
+        // Each is replaced.
+        plans.resize(self.sub_draws.len(), plan(&self.sub_draws[0]));
+        let parts = plans.chunks_mut(PART_PLANS);
+        let mut parts: Vec<_> = parts.zip(self.sub_draws.chunks(PART_PLANS)).collect();
+        executor.for_each_alone(&mut parts, |(plans, sub_draws)| {
+            for (into, sub_draw) in plans.iter_mut().zip(*sub_draws) {
+                *into = plan(sub_draw);
+            }
+        });
     }
 
     /// The places of the vertices of a group's sub-draws.
     pub(crate) fn spans(&self, group: Range<usize>) -> impl Iterator<Item = &VertexSpan> + Clone {
         self.sub_draws[group].iter().map(|sub_draw| &sub_draw.span)
-    }
-
-    /// Vertices of all sub-draws that a shader of the caller's shades.
-    pub(crate) fn total_vertices(&self) -> usize {
-        let shaded = self.sub_draws.iter();
-        shaded
-            .filter(|sub_draw| !sub_draw.draw.pipeline.has_finished_vertices())
-            .map(|sub_draw| sub_draw.span.count)
-            .sum()
     }
 }

@@ -6,7 +6,7 @@ use super::index_range::{
     MAX_WHOLE_ELEMENTS, element_count, is_splittable, is_stippled_strip, list_vertices, part_of,
     restart_source, vertex_range, visible_elements,
 };
-use super::sub_draw::{Instances, SubDraw};
+use super::sub_draw::{Cut, Instances, SubDraw};
 use crate::attachment::RenderTarget;
 use crate::commands::{Draw, DrawIter, DrawList};
 use crate::geometry::assembly::primitive_count;
@@ -100,14 +100,12 @@ impl<'a> DrawCursor<'a> {
                 continue;
             };
             batch.invisible_primitives += open.take_invisible();
-            let mut sub_draw = open.take(executor, &mut self.known);
+            let (mut sub_draw, listed) = open.take(executor, &mut self.known);
             sub_draw.state = state;
             if sub_draw.total_primitives() > 0 {
                 vertices += sub_draw.total_vertices();
                 primitives += sub_draw.total_primitives();
-                batch.vertices += sub_draw.total_vertices();
-                batch.primitives += sub_draw.total_primitives();
-                batch.push(sub_draw);
+                batch.push(sub_draw, listed);
             }
             if !open.is_done() {
                 self.current = Some(open);
@@ -153,7 +151,7 @@ impl<'a> OpenDraw<'a> {
 
     /// Takes the next sub-draw off: many instances of a small draw, or part of one instance of a
     /// large one.
-    fn take(&mut self, executor: &Executor, known: &mut KnownExtremes) -> SubDraw<'a> {
+    fn take(&mut self, executor: &Executor, known: &mut KnownExtremes) -> Cut<'a> {
         let draw = self.draw;
         if let Some(source) = restart_source(draw) {
             return self.take_restarted(&source);
@@ -173,7 +171,7 @@ impl<'a> OpenDraw<'a> {
             // Parts of a mesh have half a vertex for each triangle, and few in common with others.
             // Of triangles in random order each part has many of the vertices, which would be
             // shaded again for each part.
-            let is_coherent = draw.indices.is_none() || taken.vertices / 3 <= count / 4;
+            let is_coherent = draw.indices.is_none() || taken.0.vertices / 3 <= count / 4;
             if !is_coherent && count < left {
                 count = left.min(INCOHERENT_PRIMITIVES);
                 taken = part(count);
@@ -187,14 +185,14 @@ impl<'a> OpenDraw<'a> {
         }
         let left = self.instances.end - self.instances.start;
         let instances = (SUB_DRAW_PRIMITIVES / all.max(1)).clamp(1, left);
-        let sub_draw = self.sub_draw((executor, known), [0, whole], instances);
-        let sub_draw = sub_draw.within_budget(BATCH_BUDGET);
-        self.instances.start += sub_draw.instances;
-        sub_draw
+        let mut cut = self.sub_draw((executor, known), [0, whole], instances);
+        cut.0.keep_within(BATCH_BUDGET);
+        self.instances.start += cut.0.instances;
+        cut
     }
 
     /// Takes the next sub-draw off where indices may restart primitives.
-    fn take_restarted(&mut self, source: &RestartSource<'_>) -> SubDraw<'a> {
+    fn take_restarted(&mut self, source: &RestartSource<'_>) -> Cut<'a> {
         let is_first = self.restart.is_at_start();
         let is_whole = is_stippled_strip(self.draw);
         let mut begins = Vec::new();
@@ -224,16 +222,16 @@ impl<'a> OpenDraw<'a> {
             count,
         };
         let range = list_vertices(&mut corners);
-        let mut sub_draw = SubDraw::new(self.draw, [0, 0], primitives, instances, range);
-        let listed = sub_draw.listed_mut();
+        let (mut sub_draw, listed) = SubDraw::cut(self.draw, [0, 0], primitives, instances, range);
+        let mut listed = listed.unwrap_or_default();
         listed.restarted = Some(corners);
         listed.line_restarts = begins;
-        let sub_draw = sub_draw.within_budget(BATCH_BUDGET);
+        sub_draw.keep_within(BATCH_BUDGET);
         if is_done {
             self.restart = RestartCursor::default();
             self.instances.start += sub_draw.instances;
         }
-        sub_draw
+        (sub_draw, Some(listed))
     }
 
     /// The sub-draw of some elements (first and count, from the draw's first on) of the next
@@ -243,7 +241,7 @@ impl<'a> OpenDraw<'a> {
         indices: (&Executor, &mut KnownExtremes),
         [first, count]: [u32; 2],
         instances: u32,
-    ) -> SubDraw<'a> {
+    ) -> Cut<'a> {
         let first = self.draw.elements.start.saturating_add(first);
         let range = vertex_range(indices, self.draw, first, count);
         let topology = self.draw.pipeline.descriptor().primitive.topology;
@@ -252,7 +250,7 @@ impl<'a> OpenDraw<'a> {
             count: instances,
         };
         let primitives = primitive_count(topology, count);
-        SubDraw::new(self.draw, [first, count], primitives, instances, range)
+        SubDraw::cut(self.draw, [first, count], primitives, instances, range)
     }
 }
 

@@ -20,12 +20,13 @@ static NO_BINDINGS: Bindings = Bindings {
 
 /// A draw, or part of one: a range of vertices that is shaded once, and the primitives between
 /// them.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Copy)]
 pub(crate) struct SubDraw<'a> {
     pub(crate) draw: &'a Draw<'a>,
-    pub(crate) bindings: &'a Bindings,
     /// The number of its state in the batch.
     pub(crate) state: u32,
+    /// The number in the batch of the state that tiles read.
+    pub(crate) tile_state: u32,
     /// Its vertices in those of the batch.
     pub(crate) span: VertexSpan,
     /// Elements of one instance: first, and how many.
@@ -37,13 +38,16 @@ pub(crate) struct SubDraw<'a> {
     pub(super) vertices: u32,
     /// Primitives of one instance.
     pub(super) primitives: u32,
-    /// Lists of vertices, which few draws need.
-    listed: Option<Box<ListedVertices>>,
+    /// The number of its lists of vertices in the batch, which few draws need.
+    pub(super) listed: Option<u32>,
 }
+
+/// A sub-draw that is not in a batch yet, and its lists of vertices.
+pub(super) type Cut<'a> = (SubDraw<'a>, Option<Box<ListedVertices>>);
 
 /// Vertices that are named one by one.
 #[derive(Debug, Clone, Default)]
-pub(super) struct ListedVertices {
+pub(crate) struct ListedVertices {
     /// The vertex index of each element, where the range of indices is sparse.
     sparse: Option<Vec<u32>>,
     /// The vertices of each primitive of an instance, where indices may restart primitives.
@@ -60,25 +64,24 @@ pub(super) struct Instances {
 }
 
 impl<'a> SubDraw<'a> {
-    /// A sub-draw of `primitives` primitives in each instance. Its span is not placed in a batch
-    /// yet.
-    pub(super) fn new(
+    /// A sub-draw of `primitives` primitives in each instance.
+    pub(super) fn cut(
         draw: &'a Draw<'a>,
         elements: [u32; 2],
         primitives: u32,
         instances: Instances,
         range: IndexRange,
-    ) -> Self {
+    ) -> Cut<'a> {
         let listed = range.sparse.map(|sparse| {
             Box::new(ListedVertices {
                 sparse: Some(sparse),
                 ..ListedVertices::default()
             })
         });
-        Self {
+        let sub_draw = Self {
             draw,
-            bindings: draw.bindings.unwrap_or(&NO_BINDINGS),
             state: 0,
+            tile_state: 0,
             span: VertexSpan::default(),
             elements,
             first_instance: instances.first,
@@ -86,22 +89,22 @@ impl<'a> SubDraw<'a> {
             first_vertex: range.first,
             vertices: range.count,
             primitives,
-            listed,
-        }
+            listed: None,
+        };
+        (sub_draw, listed)
     }
 
-    /// The sub-draw's lists of vertices.
-    pub(super) fn listed_mut(&mut self) -> &mut ListedVertices {
-        self.listed.get_or_insert_default()
+    /// What its shaders find by number.
+    pub(crate) fn bindings(&self) -> &'a Bindings {
+        self.draw.bindings.unwrap_or(&NO_BINDINGS)
     }
 
     /// Drops instances beyond a budget of vertices, but for the first one: a triangle can have a
     /// dozen vertices, in each of a million instances.
-    pub(super) fn within_budget(mut self, vertices: usize) -> Self {
+    pub(super) fn keep_within(&mut self, vertices: usize) {
         let most = vertices / (self.vertices as usize).max(1);
         let most = u32::try_from(most).unwrap_or(u32::MAX).max(1);
         self.instances = self.instances.min(most);
-        self
     }
 
     /// Returns true if a tile rasterizes the triangles of both alike, whatever shades them: they
@@ -137,20 +140,20 @@ impl<'a> SubDraw<'a> {
     }
 
     /// Returns the source of the vertices.
-    pub(crate) fn vertex_source(&self) -> VertexSource<'_> {
+    pub(crate) fn vertex_source<'s>(
+        &'s self,
+        listed: Option<&'s ListedVertices>,
+    ) -> VertexSource<'s> {
         VertexSource {
             pipeline: self.draw.pipeline,
             buffers: self.draw.vertex_buffers,
-            bindings: self.bindings,
+            bindings: self.bindings(),
             first_vertex: self.first_vertex,
             count: self.vertices,
             first_instance: self.first_instance,
             base_instance: self.draw.instances.start,
             instances: self.instances,
-            sparse: self
-                .listed
-                .as_deref()
-                .and_then(|list| list.sparse.as_deref()),
+            sparse: listed.and_then(|list| list.sparse.as_deref()),
         }
     }
 
@@ -159,11 +162,10 @@ impl<'a> SubDraw<'a> {
         &'w self,
         level: Level,
         plan: &'w GeometryPlan,
-        vertices: SubDrawVertices<'w>,
+        (vertices, listed): (SubDrawVertices<'w>, Option<&'w ListedVertices>),
         primitives: [u32; 2],
     ) -> RunWork<'w> {
         let state = &self.draw.pipeline.descriptor().primitive;
-        let listed = self.listed.as_deref();
         RunWork {
             level,
             plan,
@@ -178,7 +180,7 @@ impl<'a> SubDraw<'a> {
                 base_vertex: self.draw.base_vertex,
             },
             vertices,
-            source: self.vertex_source(),
+            source: self.vertex_source(listed),
             is_line_strip: is_line_strip(state.topology),
             line_restarts: listed.map_or(&[], |list| &list.line_restarts),
             instance: InstanceSize {
@@ -191,4 +193,4 @@ impl<'a> SubDraw<'a> {
 }
 
 // There is one for each draw of a batch.
-const _: () = assert!(size_of::<SubDraw<'_>>() <= 144);
+const _: () = assert!(size_of::<SubDraw<'_>>() <= 104);

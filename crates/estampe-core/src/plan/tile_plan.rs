@@ -17,7 +17,7 @@ use estampe_simd::Level;
 use estampe_types::shader::DepthOutput;
 use estampe_types::state::CompareFunction;
 use estampe_types::{Bindings, Interpolation};
-use std::ops::{Deref, Range};
+use std::ops::Deref;
 
 /// When samples are tested (O9).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -43,8 +43,6 @@ pub(crate) struct TilePlan<'a> {
 /// State that the tiles read of sub-draws in a row.
 #[derive(Debug, Clone)]
 pub(crate) struct TileState<'a> {
-    /// The numbers of the sub-draws in the batch.
-    pub(crate) sub_draws: Range<usize>,
     pub(crate) pipeline: &'a RenderPipeline,
     /// The pixels that may change.
     pub(crate) rect: PixelRect,
@@ -101,9 +99,8 @@ impl TilePlan<'_> {
 }
 
 impl<'a> TileState<'a> {
-    /// The state of a draw whose sub-draw has this number.
+    /// The state of a draw.
     pub(crate) fn new(
-        sub_draw: usize,
         draw: &'a Draw<'a>,
         geometry: &'a GeometryPlan,
         target: &TargetFacts,
@@ -126,7 +123,6 @@ impl<'a> TileState<'a> {
         let tests_depth_alone = tests.is_depth_alone() && query.is_none();
         let modes = &pipeline.interface().varyings;
         Self {
-            sub_draws: sub_draw..sub_draw + 1,
             pipeline,
             rect: geometry.rect,
             cut_samples: geometry.cut_samples,
