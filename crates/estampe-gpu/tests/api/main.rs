@@ -15,6 +15,7 @@ mod inspect_stages;
 mod interfaces;
 mod large_targets;
 mod limits;
+mod many_draws;
 mod misuse;
 mod misuse_groups;
 mod misuse_objects;
