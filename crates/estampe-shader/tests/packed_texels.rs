@@ -83,7 +83,7 @@ impl Case {
         }
     }
 
-    /// What the texture holds that is stored to, by the oracle's codec.
+    /// The texels that the stored texture holds, by the oracle's codec.
     fn expected(&self) -> Vec<u8> {
         let [[width, height], to] = self.sides.map(|sides| sides.map(u32::cast_signed));
         let [from, into] = self.formats;

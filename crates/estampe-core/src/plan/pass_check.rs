@@ -106,7 +106,7 @@ pub enum RenderPassError {
     },
 }
 
-/// What the draws of a pass need, as it was found when they were [checked](DrawChecker).
+/// The needs of the draws of a pass, found when they were [checked](DrawChecker).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct DrawNeeds {
     /// Tessellation or a geometry shader.
@@ -174,7 +174,7 @@ impl<'a> DrawChecker<'a> {
         }
     }
 
-    /// What the draws so far need.
+    /// The needs of the draws so far.
     #[must_use]
     pub fn needs(&self) -> DrawNeeds {
         self.needs

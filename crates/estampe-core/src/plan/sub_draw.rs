@@ -94,7 +94,7 @@ impl<'a> SubDraw<'a> {
         (sub_draw, listed)
     }
 
-    /// What its shaders find by number.
+    /// The resources that its shaders find by number.
     pub(crate) fn bindings(&self) -> &'a Bindings {
         self.draw.bindings.unwrap_or(&NO_BINDINGS)
     }

@@ -158,7 +158,7 @@ impl DrawData {
         }
     }
 
-    /// What was found of each part.
+    /// The survey of each part.
     pub(super) fn surveys(&self) -> impl Iterator<Item = &PartSurvey> + Clone {
         self.parts.iter().map(|part| &part.survey)
     }
@@ -170,7 +170,7 @@ impl DrawData {
             .flat_map(|survey| survey.changes.iter().copied())
     }
 
-    /// What the draws need, if they keep the core's rules.
+    /// The needs of the draws, if they keep the core's rules.
     pub(super) fn needs(&self) -> Result<DrawNeeds, estampe_core::RenderPassError> {
         let mut needs = DrawNeeds::default();
         for survey in self.surveys() {

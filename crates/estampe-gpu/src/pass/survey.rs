@@ -10,7 +10,7 @@ use super::{Draw, PassErrorKind};
 use crate::BufferSlice;
 use estampe_core::{DrawChecker, DrawNeeds, TargetShape};
 
-/// What of a draw's data is not that of the draw before in its part; all of the first one's is.
+/// Differences of a draw from the one before in its part; of the first one all are set.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Differs {
     pub(super) vertices: bool,
@@ -19,7 +19,7 @@ pub(super) struct Differs {
     pub(super) bindings: bool,
 }
 
-/// What is known of a part of a pass's draws.
+/// The facts found of a part of a pass's draws.
 #[derive(Debug, Default)]
 pub(super) struct PartSurvey {
     /// For each draw.
