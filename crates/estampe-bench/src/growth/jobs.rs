@@ -89,8 +89,10 @@ pub struct Limits {
     pub waiting: Vec<(JobKind, f64)>,
 }
 
-/// The number of recorded frames; each job's median counts.
-const FRAMES: usize = 9;
+/// The number of recorded frames. The least time of each job and of the serial parts counts: what
+/// the machine's other programs take is part of no frame, and a serial part is short enough to fall
+/// into one of their turns whole.
+const FRAMES: usize = 15;
 
 impl FrameCosts {
     /// Records a scene's frames on one thread, in the jobs of so many cores.
@@ -127,11 +129,11 @@ impl FrameCosts {
                 }
             })
             .collect();
-        Ok(Self::median_of(&frames))
+        Ok(Self::least_of(&frames))
     }
 
-    /// The median of each job and of the serial parts over frames with equal jobs.
-    fn median_of(frames: &[Self]) -> Self {
+    /// The least time of each job and of the serial parts over frames with equal jobs.
+    fn least_of(frames: &[Self]) -> Self {
         let Some(first) = frames.first() else {
             return Self {
                 phases: Vec::new(),
@@ -142,10 +144,11 @@ impl FrameCosts {
         for (number, phase) in costs.phases.iter_mut().enumerate() {
             for (job, cost_ns) in phase.jobs_ns.iter_mut().enumerate() {
                 let of_frame = |frame: &Self| frame.phases.get(number)?.jobs_ns.get(job).copied();
-                *cost_ns = median(frames.iter().filter_map(of_frame).collect());
+                *cost_ns = frames.iter().filter_map(of_frame).min().unwrap_or(*cost_ns);
             }
         }
-        costs.serial_ns = median(frames.iter().map(|frame| frame.serial_ns).collect());
+        let serial = frames.iter().map(|frame| frame.serial_ns);
+        costs.serial_ns = serial.min().unwrap_or(costs.serial_ns);
         costs
     }
 
@@ -303,6 +306,17 @@ mod tests {
         let limits = frame.limits(9, FREE);
         assert!((limits.serial - 0.5).abs() < 1e-9);
         assert!(limits.waiting.iter().all(|(_, share)| share.abs() < 1e-9));
+    }
+
+    #[test]
+    fn the_least_time_of_each_part_counts() {
+        let tiles = |jobs: &[u64]| [(JobKind::Tiles, jobs.to_vec())];
+        let frames = [
+            costs(30, &tiles(&[5, 90, 7])),
+            costs(20, &tiles(&[6, 9, 70])),
+            costs(200, &tiles(&[50, 10, 8])),
+        ];
+        assert_eq!(FrameCosts::least_of(&frames), costs(20, &tiles(&[5, 9, 7])));
     }
 
     #[test]
