@@ -86,11 +86,11 @@ pub(crate) use x86::*;
 
 #[cfg(target_arch = "x86_64")]
 mod x86 {
-    use super::LANES;
+    use super::{LANES, SET_BITS};
     use fearless_simd::x86::{Avx2, Avx512};
     use fearless_simd::{
-        SimdBase, SimdCombine, SimdInto, SimdMask, SimdSplit, mask16x32, mask32x16, u16x16, u16x32,
-        u32x8, u32x16,
+        SimdBase, SimdCombine, SimdInto, SimdMask, SimdSplit, mask16x32, mask32x16, u16x8, u16x16,
+        u16x32, u32x8, u32x16,
     };
 
     #[inline(always)]
@@ -137,6 +137,55 @@ mod x86 {
         let (first, second) = order.split();
         let first = kernel(simd, [low, high], first);
         first.combine(kernel(simd, [low, high], second))
+    }
+
+    /// The table's bytes of the bits that are set, as words.
+    #[inline(always)]
+    pub(crate) fn list_avx2(simd: Avx2, bits: u16, first: u32, out: &mut [u32; LANES]) -> usize {
+        fearless_simd::kernel!(
+            #[inline(always)]
+            fn widen(simd: Avx2, numbers: u64) -> u32x8<Avx2> {
+                use core::arch::x86_64::*;
+                let numbers = _mm_cvtsi64_si128(numbers.cast_signed());
+                _mm256_cvtepu8_epi32(numbers).simd_into(simd)
+            }
+        );
+        let [low, high] = bits.to_le_bytes();
+        let of_low = widen(simd, u64::from_le_bytes(SET_BITS[usize::from(low)]));
+        let of_high = widen(simd, u64::from_le_bytes(SET_BITS[usize::from(high)]));
+        let first = u32x8::splat(simd, first);
+        (of_low + first).store_slice(&mut out[..8]);
+        let from = low.count_ones() as usize;
+        let Some(out) = out.get_mut(from..from + 8) else {
+            unreachable!("a byte has eight bits");
+        };
+        (of_high + first + u32x8::splat(simd, 8)).store_slice(out);
+        bits.count_ones() as usize
+    }
+
+    /// [`list_avx2`] of 32 bits, as half words.
+    #[inline(always)]
+    pub(crate) fn list_word_avx2(simd: Avx2, bits: u32, first: u16, out: &mut [u16; 32]) -> usize {
+        fearless_simd::kernel!(
+            #[inline(always)]
+            fn widen(simd: Avx2, numbers: u64) -> u16x8<Avx2> {
+                use core::arch::x86_64::*;
+                let numbers = _mm_cvtsi64_si128(numbers.cast_signed());
+                _mm_cvtepu8_epi16(numbers).simd_into(simd)
+            }
+        );
+        let mut before = u16x8::splat(simd, first);
+        let mut from = 0;
+        for byte in bits.to_le_bytes() {
+            let numbers = widen(simd, u64::from_le_bytes(SET_BITS[usize::from(byte)]));
+            let Some(out) = out.get_mut(from..from + 8) else {
+                unreachable!("a byte has eight bits");
+            };
+            (numbers + before).store_slice(out);
+            from += byte.count_ones() as usize;
+            before += u16x8::splat(simd, 8);
+        }
+        from
     }
 
     #[inline(always)]

@@ -160,6 +160,14 @@ impl Lanes for Avx2 {
     fn permute(self, value: u32x16<Self>, order: u32x16<Self>) -> u32x16<Self> {
         crate::permute::permute_avx2(self, value, order)
     }
+    #[inline(always)]
+    fn list_bits(self, bits: u16, first: u32, out: &mut [u32; 16]) -> usize {
+        crate::permute::list_avx2(self, bits, first, out)
+    }
+    #[inline(always)]
+    fn list_bits_of_word(self, bits: u32, first: u16, out: &mut [u16; 32]) -> usize {
+        crate::permute::list_word_avx2(self, bits, first, out)
+    }
 }
 
 impl Lanes for Avx512 {
