@@ -56,6 +56,7 @@ pub use huge_pages::advise_huge_pages;
 pub use index::{Lane, LanesOf, PacketIndex};
 pub use lanes::Lanes;
 pub use level::{Level, LevelError};
+pub use permute::Packing;
 pub use table::ByteTable;
 
 /// Number of lanes of a packet: 4×4 pixels.

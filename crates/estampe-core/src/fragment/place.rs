@@ -53,11 +53,7 @@ fn packet_and_lane(place: u16) -> (usize, usize) {
 /// [`indices_of`] places that are stored in 16 bits.
 #[inline(always)]
 fn pixel_indices<S: Lanes>(s: S, places: &[u16; LANES], lines: usize, line: usize) -> u32x16<S> {
-    let mut wide = [0; LANES];
-    for (wide, place) in wide.iter_mut().zip(places) {
-        *wide = u32::from(*place);
-    }
-    indices_of(s, u32x16::load_array(s, wide), [lines, line])
+    indices_of(s, s.widen(places), [lines, line])
 }
 
 /// The indices of sixteen pixels' words in an attachment, given where they are (packet·16 + lane),
@@ -111,11 +107,7 @@ impl Place {
                     }
                 }
             }
-            Self::Pixels(ref places) => {
-                for (pixel, place) in pixels.iter_mut().zip(places) {
-                    *pixel = u32::from(*place);
-                }
-            }
+            Self::Pixels(ref places) => return s.widen(places),
         }
         u32x16::load_array(s, pixels)
     }

@@ -1,6 +1,6 @@
 //! Triangles that wait until sixteen of them fill a packet.
 
-use estampe_simd::{LANES, Lane, Lanes, SimdBase, f32x16, u32x16};
+use estampe_simd::{LANES, Lane, Lanes, Packing, SimdBase, f32x16, u32x16};
 
 /// Triangles that wait for their packet to be full: at most fifteen, and sixteen that join them.
 #[derive(Debug)]
@@ -47,21 +47,26 @@ impl Waiting {
         let at = self.len;
         self.len += kept.count_ones() as usize;
         let [to_a, to_b, to_c] = &mut self.vertex;
-        if <S::u32s as SimdBase<S>>::LEN == LANES {
-            // The whole vector is written; what is beyond the kept lanes is garbage until
+        if <S::u32s as SimdBase<S>>::LEN >= LANES / 2 {
+            // Sixteen values are written; what is beyond the kept lanes is garbage until
             // overwritten.
-            let mask = s.mask_from_bits(kept);
-            a.compress(mask).store_slice(&mut to_a[at..][..LANES]);
-            b.compress(mask).store_slice(&mut to_b[at..][..LANES]);
-            c.compress(mask).store_slice(&mut to_c[at..][..LANES]);
-            first_vertex
-                .compress(mask)
-                .store_slice(&mut self.first_vertex[at..][..LANES]);
-            provoking
-                .compress(mask)
-                .store_slice(&mut self.provoking[at..][..LANES]);
-            area.compress(mask)
-                .store_slice(&mut self.doubled_area[at..][..LANES]);
+            let packing = Packing::new(s, kept);
+            let lists = [
+                to_a,
+                to_b,
+                to_c,
+                &mut self.first_vertex,
+                &mut self.provoking,
+            ];
+            for (list, values) in lists.into_iter().zip([a, b, c, first_vertex, provoking]) {
+                let Some(to) = list.get_mut(at..).and_then(<[_]>::first_chunk_mut) else {
+                    unreachable!("there is room for sixteen more");
+                };
+                packing.store(s, values, to);
+            }
+            if let Some(to) = self.doubled_area[at..].first_chunk_mut() {
+                packing.store_f32(s, area, to);
+            }
             return;
         }
         let (a, b, c) = (a.to_array(), b.to_array(), c.to_array());

@@ -3,7 +3,7 @@
 use crate::fragment::fill::{LANE_NUMBERS, samples_of};
 use crate::raster::Covered;
 use crate::raster::small::PIXELS;
-use estampe_simd::{LANES, Lanes, SimdBase, u32x16};
+use estampe_simd::{LANES, Lanes, Packing, SimdBase, u32x16};
 
 /// Listed pixels.
 #[derive(Debug)]
@@ -53,16 +53,14 @@ impl Fragments {
     /// Adds those of sixteen fragments that are in a mask: pixels, places, samples.
     #[inline(always)]
     pub(super) fn add<S: Lanes>(&mut self, s: S, kept: u16, of: [u32x16<S>; 3]) {
-        let mut order = [0; LANES];
-        let count = s.list_bits(kept, 0, &mut order);
-        let order = u32x16::load_array(s, order);
+        let packing = Packing::new(s, kept);
         let lists = [&mut self.pixels, &mut self.places, &mut self.samples];
         for (list, values) in lists.into_iter().zip(of) {
             if let Some(to) = chunk_from(list, Self::FIRST + self.len) {
-                s.permute(values, order).store_array(to);
+                packing.store(s, values, to);
             }
         }
-        self.len += count;
+        self.len += packing.count();
         debug_assert!(self.len <= Self::MOST, "{} fragments", self.len);
     }
 

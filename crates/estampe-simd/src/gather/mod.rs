@@ -49,6 +49,14 @@ pub fn bits_of_mut(table: &mut [f32]) -> &mut [u32] {
     unsafe { std::slice::from_raw_parts_mut(table.as_mut_ptr().cast(), table.len()) }
 }
 
+/// [`bits_of_mut`] sixteen floats.
+#[inline(always)]
+#[expect(unsafe_code, reason = "safe transmutation is not stable")]
+pub(crate) fn bits_of_sixteen(floats: &mut [f32; LANES]) -> &mut [u32; LANES] {
+    // SAFETY: as in `bits_of_mut`, and both arrays have as many elements.
+    unsafe { &mut *std::ptr::from_mut(floats).cast() }
+}
+
 /// Packets of words as packets of the floats that have these bits.
 #[inline(always)]
 #[must_use]
@@ -183,6 +191,24 @@ pub(crate) fn scatter_by_lane<S: Simd>(
     let pairs = index.as_slice().iter().zip(values.as_slice());
     for (lane, (&at, &value)) in pairs.enumerate() {
         // Lanes outside the mask keep what is there, so that there is no branch on it.
+        if let Some(to) = table.get_mut(at as usize) {
+            *to = select_unpredictable(lanes >> lane & 1 == 1, value, *to);
+        }
+    }
+}
+
+/// [`Lanes::scatter`](crate::Lanes::scatter) of values in memory. The function is not inlined, as
+/// the compiler would then take lane by lane out of registers, which is two operations each.
+#[cfg(target_arch = "x86_64")]
+#[inline(never)]
+pub(crate) fn scatter_in_memory(
+    table: &mut [u32],
+    index: &[u32; LANES],
+    values: &[u32; LANES],
+    lanes: u16,
+) {
+    for (lane, (&at, &value)) in index.iter().zip(values).enumerate() {
+        // As in `scatter_by_lane`.
         if let Some(to) = table.get_mut(at as usize) {
             *to = select_unpredictable(lanes >> lane & 1 == 1, value, *to);
         }

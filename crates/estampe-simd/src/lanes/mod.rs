@@ -11,7 +11,7 @@ mod simd128;
 #[cfg(target_arch = "x86_64")]
 mod x86;
 
-use crate::{ByteTable, Columns, Level};
+use crate::{ByteTable, Columns, Level, Packing};
 use fearless_simd::{
     Select, Simd, SimdBase, SimdFloat, SimdMask, f32x16, i32x16, mask32x16, u32x16,
 };
@@ -169,6 +169,22 @@ pub trait Lanes: Simd {
     #[inline(always)]
     fn list_bits_of_word(self, bits: u32, first: u16, out: &mut [u16; 32]) -> usize {
         crate::permute::list_word_by_table(bits, first, out)
+    }
+
+    /// The order of a [`Packing`] of these lanes.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn packing_order(self, lanes: u16) -> u32x16<Self> {
+        let mut order = [0; 16];
+        self.list_bits(lanes, 0, &mut order);
+        u32x16::load_array(self, order)
+    }
+
+    /// [`Packing::store`].
+    #[doc(hidden)]
+    #[inline(always)]
+    fn store_packed(self, values: u32x16<Self>, packing: &Packing<Self>, out: &mut [u32; 16]) {
+        self.permute(values, packing.order).store_array(out);
     }
 
     /// Half words as words.

@@ -1,10 +1,10 @@
 //! The levels of x86-64: SSE2, AVX2 and AVX-512.
 
 use super::Lanes;
-use crate::{ByteTable, Columns, Level};
+use crate::{ByteTable, Columns, Level, Packing};
 use fearless_simd::x86::{Avx2, Avx512, Sse2};
 use fearless_simd::{
-    Select, SimdBase, SimdCvtFloat, SimdCvtTruncate, SimdFloat, f32x16, i32x16, u32x16,
+    Select, SimdBase, SimdCvtFloat, SimdCvtTruncate, SimdFloat, f32x16, i32x16, mask32x16, u32x16,
 };
 
 impl Lanes for Sse2 {
@@ -167,6 +167,26 @@ impl Lanes for Avx2 {
     #[inline(always)]
     fn list_bits_of_word(self, bits: u32, first: u16, out: &mut [u16; 32]) -> usize {
         crate::permute::list_word_avx2(self, bits, first, out)
+    }
+    #[inline(always)]
+    fn packing_order(self, lanes: u16) -> u32x16<Self> {
+        crate::permute::packing_avx2(self, lanes)
+    }
+    #[inline(always)]
+    fn store_packed(self, values: u32x16<Self>, packing: &Packing<Self>, out: &mut [u32; 16]) {
+        crate::permute::store_packed_avx2(self, values, packing, out);
+    }
+    #[inline(always)]
+    fn bits_of_mask(self, mask: mask32x16<Self>) -> u16 {
+        crate::permute::bits_of_mask_avx2(self, mask)
+    }
+    #[inline(always)]
+    fn sign_bits(self, a: i32x16<Self>) -> u16 {
+        crate::permute::sign_bits_avx2(self, a)
+    }
+    #[inline(always)]
+    fn scatter(self, table: &mut [u32], index: u32x16<Self>, values: u32x16<Self>, lanes: u16) {
+        crate::gather::scatter_in_memory(table, &index.to_array(), &values.to_array(), lanes);
     }
 }
 

@@ -166,8 +166,53 @@ fn bits_of_words_are_listed_in_ascending_order() {
 }
 
 #[inline(always)]
+fn packed<S: Lanes>(s: S, lanes: u16, values: [u32; LANES]) -> (usize, [[u32; LANES]; 2]) {
+    let packing = Packing::new(s, lanes);
+    let mut order = [0; LANES];
+    packing.store_order(&mut order);
+    let packing = Packing::load(s, &order, lanes);
+    let values = u32x16::load_array(s, values);
+    let (mut words, mut floats) = ([u32::MAX; LANES], [0.0; LANES]);
+    packing.store(s, values, &mut words);
+    packing.store_f32(s, values.bitcast(), &mut floats);
+    (packing.count(), [words, floats.map(f32::to_bits)])
+}
+
+#[test]
+fn lanes_are_packed_in_their_order() {
+    let mut values = [0; LANES];
+    for (value, number) in values.iter_mut().zip(1..) {
+        *value = number * 0x0101_0101;
+    }
+    for level in Level::all_available() {
+        for lanes in (0..=u16::MAX).step_by(5) {
+            let of_lanes = (0..LANES).filter(|lane| lanes >> lane & 1 == 1);
+            let expected: Vec<u32> = of_lanes.map(|lane| values[lane]).collect();
+            let (count, found) = dispatch!(level, s => packed(s, lanes, values));
+            for found in found {
+                assert_eq!(found[..count], expected, "{lanes:#x} at {}", level.name());
+            }
+        }
+    }
+}
+
+#[inline(always)]
 fn round_trip<S: Lanes>(s: S, bits: u16) -> u16 {
-    s.bits_of_mask(s.mask_from_bits(bits))
+    let signs = s.sign_bits(signs(s, bits));
+    let bits = s.bits_of_mask(s.mask_from_bits(bits));
+    assert_eq!(signs, bits);
+    bits
+}
+
+/// Numbers whose sign bits are given.
+#[inline(always)]
+fn signs<S: Lanes>(s: S, bits: u16) -> i32x16<S> {
+    let mut numbers = [0; LANES];
+    for (lane, number) in numbers.iter_mut().enumerate() {
+        let large = [0, 1, 0x8000, 0x1_0000, i32::MAX][lane % 5];
+        *number = if bits >> lane & 1 == 1 { !large } else { large };
+    }
+    i32x16::load_array(s, numbers)
 }
 
 #[test]

@@ -16,7 +16,7 @@ use super::{CAPACITY, FragmentQueue};
 use crate::fragment::fill::{lanes_between, masks_of, samples_of};
 use crate::fragment::last_packet::LastPacket;
 use crate::fragment::place::Place;
-use estampe_simd::{Bytes, LANES, Lanes, Packet, Select, SimdBase, f32x16, u32x16};
+use estampe_simd::{Bytes, LANES, Lanes, Packet, Packing, Select, SimdBase, f32x16, u32x16};
 use estampe_types::shader::DepthOutput;
 
 /// Values in a list: those of all fragments of a full queue. Sixteen are written at a time, so
@@ -30,8 +30,9 @@ const FRONT: u32 = 1 << 31;
 #[derive(Debug)]
 #[repr(C, align(64))]
 pub(crate) struct Survivors {
-    /// By packet: its lanes that are left, in ascending order.
-    lanes: [[u32; LANES]; CAPACITY],
+    /// By packet: how its lanes that are left move together, and which these are.
+    orders: [[u32; LANES]; CAPACITY],
+    lanes: [u16; CAPACITY],
     /// By packet: how many are left of those before.
     firsts: [usize; CAPACITY],
     /// How many are left of all.
@@ -50,7 +51,8 @@ pub(crate) struct Survivors {
 impl Default for Survivors {
     fn default() -> Self {
         Self {
-            lanes: [[0; LANES]; CAPACITY],
+            orders: [[0; LANES]; CAPACITY],
+            lanes: [0; CAPACITY],
             firsts: [0; CAPACITY],
             len: 0,
             places: [0; ROOM],
@@ -75,21 +77,22 @@ impl Survivors {
         let splat = |value| <u32x16<S> as SimdBase<S>>::splat(s, value);
         let mut len = 0;
         let packets = places.iter().zip(masks).zip(front);
-        let lists = self.lanes.iter_mut().zip(&mut self.firsts);
-        for (((place, masks), front), (lanes, first)) in packets.zip(lists) {
-            let left = masks.iter().fold(0, |any, mask| any | mask);
-            let count = s.list_bits(left, 0, lanes);
-            let order = u32x16::load_array_ref(s, lanes);
+        let lists = self.orders.iter_mut().zip(&mut self.lanes);
+        let lists = lists.zip(&mut self.firsts);
+        for (((place, masks), front), ((order, lanes), first)) in packets.zip(lists) {
+            *lanes = masks.iter().fold(0, |any, mask| any | mask);
+            let packing = Packing::new(s, *lanes);
+            packing.store_order(order);
             let is_front = s.mask_from_bits(*front);
             let samples = samples_of(s, masks, false) | is_front.select(splat(FRONT), splat(0));
             if let Some(to) = sixteen_mut(&mut self.places, len) {
-                s.permute(place.pixels(s), order).store_array(to);
+                packing.store(s, place.pixels(s), to);
             }
             if let Some(to) = sixteen_mut(&mut self.samples, len) {
-                s.permute(samples, order).store_array(to);
+                packing.store(s, samples, to);
             }
             *first = len;
-            len += count;
+            len += packing.count();
         }
         self.len = len;
         // What lies behind the last one must be pixels of the tile, too.
@@ -119,13 +122,12 @@ impl Survivors {
         [before, after]: [usize; 2],
     ) {
         for number in 0..each {
-            let lanes = self.lanes.iter().zip(&self.firsts).take(before);
+            let packings = self.orders.iter().zip(&self.lanes).take(before);
             let of_packets = packets[number..].iter().step_by(each);
-            for (packet, (lanes, first)) in of_packets.zip(lanes) {
-                let order = u32x16::load_array_ref(s, lanes);
-                let values = s.permute_f32(f32x16::load_array_ref(s, &packet.0), order);
+            for ((packet, (order, lanes)), first) in of_packets.zip(packings).zip(&self.firsts) {
+                let packing = Packing::load(s, order, *lanes);
                 if let Some(to) = sixteen_mut(&mut self.values, *first) {
-                    values.store_array(to);
+                    packing.store_f32(s, f32x16::load_array_ref(s, &packet.0), to);
                 }
             }
             let of_packets = packets[number..].iter_mut().step_by(each);

@@ -16,7 +16,7 @@ use super::resolve::NONE;
 use crate::fragment::fill::lanes_between;
 use crate::fragment::quad::{QUAD, QUADS};
 use crate::raster::Covered;
-use estampe_simd::{LANES, Lanes, Select, SimdBase, u32x16};
+use estampe_simd::{LANES, Lanes, Packing, Select, SimdBase, u32x16};
 use std::ops::Range;
 
 /// Bits of a quad's word: the pixels whose first sample shows its triangle; its place in the tile,
@@ -132,17 +132,15 @@ impl<const N: usize> Quads<N> {
             | opposite.select(s.permute(bits, load(OPPOSITE)), zero);
         let place = load(QUAD_OF) + packet * QUADS_EACH;
         let words = mask | (place << PLACE_SHIFT);
-        let mut order = [0; LANES];
-        let count = s.list_bits(leaders, 0, &mut order);
-        let order = load(order);
+        let packing = Packing::new(s, leaders);
         for (list, values) in [(&mut self.ids, ids), (&mut self.words, words)] {
             let to = list.get_mut(self.len..).and_then(<[_]>::first_chunk_mut);
             let Some(to) = to else {
                 unreachable!("there is room for sixteen more");
             };
-            s.permute(values, order).store_array(to);
+            packing.store(s, values, to);
         }
-        self.len += count;
+        self.len += packing.count();
     }
 
     /// Adds a triangle's quads of one packet; bit 4·i of `quads` is quad i.
