@@ -37,6 +37,9 @@ mod lanes;
 mod level;
 #[cfg(target_arch = "x86_64")]
 mod lookup;
+#[cfg(target_arch = "x86_64")]
+mod masks;
+mod packing;
 mod permute;
 #[cfg(target_arch = "x86_64")]
 mod prefetch;
@@ -56,7 +59,7 @@ pub use huge_pages::advise_huge_pages;
 pub use index::{Lane, LanesOf, PacketIndex};
 pub use lanes::Lanes;
 pub use level::{Level, LevelError};
-pub use permute::Packing;
+pub use packing::{Packing, Window};
 pub use table::ByteTable;
 
 /// Number of lanes of a packet: 4×4 pixels.

@@ -1,66 +1,10 @@
 //! Permutations whose order is known at run time, and lists of the bits of a mask.
 
-use crate::{LANES, Lanes};
-use fearless_simd::{Bytes, Simd, SimdBase, SimdCombine, f32x16, u16x16, u32x16};
-
-/// Some lanes of a packet that are moved together: they keep their order.
-///
-/// ```text
-///   a·bc ··d· ···· e·f·   ─▶   abcdef
-/// ```
-#[derive(Debug, Clone, Copy)]
-pub struct Packing<S: Lanes> {
-    /// The order to permute by; where a register holds half of a packet, that of each half.
-    pub(crate) order: u32x16<S>,
-    pub(crate) lanes: u16,
-}
-
-impl<S: Lanes> Packing<S> {
-    /// Moves the lanes of a mask.
-    #[inline(always)]
-    #[must_use]
-    pub fn new(s: S, lanes: u16) -> Self {
-        let order = s.packing_order(lanes);
-        Self { order, lanes }
-    }
-
-    /// A packing of the same lanes whose order was [stored](Self::store_order).
-    #[inline(always)]
-    #[must_use]
-    pub fn load(s: S, order: &[u32; LANES], lanes: u16) -> Self {
-        let order = u32x16::load_array_ref(s, order);
-        Self { order, lanes }
-    }
-
-    /// Stores the order, for [`Packing::load`] at this SIMD level.
-    #[inline(always)]
-    pub fn store_order(&self, order: &mut [u32; LANES]) {
-        self.order.store_array(order);
-    }
-
-    /// The number of lanes that are moved.
-    #[inline(always)]
-    #[must_use]
-    pub fn count(&self) -> usize {
-        self.lanes.count_ones() as usize
-    }
-
-    /// Stores their values; what lies behind these in `out` is unspecified.
-    #[inline(always)]
-    pub fn store(&self, s: S, values: u32x16<S>, out: &mut [u32; LANES]) {
-        s.store_packed(values, self, out);
-    }
-
-    /// [`Packing::store`] of floats.
-    #[inline(always)]
-    pub fn store_f32(&self, s: S, values: f32x16<S>, out: &mut [f32; LANES]) {
-        let out = crate::gather::bits_of_sixteen(out);
-        s.store_packed(values.bitcast(), self, out);
-    }
-}
+use crate::LANES;
+use fearless_simd::{Simd, SimdBase, SimdCombine, u16x16, u32x16};
 
 /// The numbers of the bits that are set in each byte, in ascending order.
-static SET_BITS: [[u8; 8]; 256] = {
+pub(crate) static SET_BITS: [[u8; 8]; 256] = {
     let mut table = [[0; 8]; 256];
     let mut byte = 0;
     while byte < 256 {
@@ -142,11 +86,12 @@ pub(crate) use x86::*;
 
 #[cfg(target_arch = "x86_64")]
 mod x86 {
-    use super::{LANES, Packing, SET_BITS};
+    use super::{LANES, SET_BITS};
+    use crate::packing::{packing_avx2, store_halves};
     use fearless_simd::x86::{Avx2, Avx512};
     use fearless_simd::{
-        Simd, SimdBase, SimdCombine, SimdInto, SimdMask, SimdSplit, i32x8, i32x16, mask16x32,
-        mask32x8, mask32x16, u16x8, u16x16, u16x32, u32x8, u32x16,
+        SimdBase, SimdCombine, SimdInto, SimdMask, SimdSplit, mask16x32, mask32x16, u16x8, u16x16,
+        u16x32, u32x8, u32x16,
     };
 
     #[inline(always)]
@@ -195,95 +140,12 @@ mod x86 {
         first.combine(kernel(simd, [low, high], second))
     }
 
-    /// The table's bytes of the bits that are set in each byte, as words.
-    #[inline(always)]
-    pub(crate) fn packing_avx2(simd: Avx2, bits: u16) -> u32x16<Avx2> {
-        fearless_simd::kernel!(
-            #[inline(always)]
-            fn widen(simd: Avx2, numbers: u64) -> u32x8<Avx2> {
-                use core::arch::x86_64::*;
-                let numbers = _mm_cvtsi64_si128(numbers.cast_signed());
-                _mm256_cvtepu8_epi32(numbers).simd_into(simd)
-            }
-        );
-        let [low, high] = bits.to_le_bytes();
-        let low = widen(simd, u64::from_le_bytes(SET_BITS[usize::from(low)]));
-        let high = widen(simd, u64::from_le_bytes(SET_BITS[usize::from(high)]));
-        low.combine(high)
-    }
-
-    /// Stores the lanes of the first half, then those of the second behind them.
-    #[inline(always)]
-    fn store_halves(halves: u32x16<Avx2>, lanes: u16, out: &mut [u32; LANES]) {
-        let (first, second) = halves.split();
-        first.store_slice(&mut out[..8]);
-        let from = (lanes & 0xFF).count_ones() as usize;
-        let Some(out) = out.get_mut(from..from + 8) else {
-            unreachable!("half of a packet has eight lanes");
-        };
-        second.store_slice(out);
-    }
-
     #[inline(always)]
     pub(crate) fn list_avx2(simd: Avx2, bits: u16, first: u32, out: &mut [u32; LANES]) -> usize {
         const HALVES: [u32; LANES] = [0, 0, 0, 0, 0, 0, 0, 0, 8, 8, 8, 8, 8, 8, 8, 8];
         let first = u32x16::load_array(simd, HALVES) + u32x16::splat(simd, first);
         store_halves(packing_avx2(simd, bits) + first, bits, out);
         bits.count_ones() as usize
-    }
-
-    #[inline(always)]
-    pub(crate) fn store_packed_avx2(
-        simd: Avx2,
-        values: u32x16<Avx2>,
-        packing: &Packing<Avx2>,
-        out: &mut [u32; LANES],
-    ) {
-        fearless_simd::kernel!(
-            #[inline(always)]
-            fn kernel(simd: Avx2, values: u32x8<Avx2>, order: u32x8<Avx2>) -> u32x8<Avx2> {
-                use core::arch::x86_64::*;
-                _mm256_permutevar8x32_epi32(values.into(), order.into()).simd_into(simd)
-            }
-        );
-        let ((low, high), (of_low, of_high)) = (values.split(), packing.order.split());
-        let halves = kernel(simd, low, of_low).combine(kernel(simd, high, of_high));
-        store_halves(halves, packing.lanes, out);
-    }
-
-    /// The sign bits, by two packs that saturate. As two moves of eight bits each, the compiler
-    /// joins them before: it then compares with zero, and packs these masks.
-    #[inline(always)]
-    pub(crate) fn sign_bits_avx2(simd: Avx2, a: i32x16<Avx2>) -> u16 {
-        fearless_simd::kernel!(
-            #[inline(always)]
-            fn kernel(simd: Avx2, low: i32x8<Avx2>, high: i32x8<Avx2>) -> i32 {
-                use core::arch::x86_64::*;
-                let _ = simd;
-                // In each 128 bits four lanes of the first half, then four of the second.
-                let words = _mm256_packs_epi32(low.into(), high.into());
-                let upper = _mm256_extracti128_si256::<1>(words);
-                let bytes = _mm_packs_epi16(_mm256_castsi256_si128(words), upper);
-                _mm_movemask_epi8(_mm_shuffle_epi32::<0b11_01_10_00>(bytes))
-            }
-        );
-        let (low, high) = a.split();
-        kernel(simd, low, high) as u16
-    }
-
-    /// [`sign_bits_avx2`] of a mask.
-    #[inline(always)]
-    pub(crate) fn bits_of_mask_avx2(simd: Avx2, mask: mask32x16<Avx2>) -> u16 {
-        fearless_simd::kernel!(
-            #[inline(always)]
-            fn half(simd: Avx2, mask: mask32x8<Avx2>) -> i32x8<Avx2> {
-                use core::arch::x86_64::*;
-                let lanes: __m256i = mask.into();
-                lanes.simd_into(simd)
-            }
-        );
-        let (low, high) = simd.split_mask32x16(mask);
-        sign_bits_avx2(simd, half(simd, low).combine(half(simd, high)))
     }
 
     /// [`list_avx2`] of 32 bits, as half words.

@@ -10,7 +10,7 @@ use crate::bounds::primitives::{TrianglePacket, VertexRef};
 use crate::bounds::triangle_edges::TriangleEdges;
 use crate::raster::pixel_list::Pixels;
 use crate::raster::small::PIXELS;
-use estampe_simd::{Bytes, LANES, Lanes, Packet, Select, SimdBase, f32x16, i32x16, u32x16};
+use estampe_simd::{Bytes, LANES, Lanes, Packet, Select, SimdBase, Window, f32x16, i32x16, u32x16};
 use estampe_types::Interpolation;
 
 /// Fragments of one packet's small triangles in rows of sixteen, the first of which may hold
@@ -35,6 +35,45 @@ pub(crate) struct Row<S: Lanes> {
     pub(crate) lanes: u16,
     /// True if other lanes hold fragments already.
     pub(crate) is_open: bool,
+}
+
+impl<S: Lanes> Row<S> {
+    /// The lanes of the triangles as a window, if they are one. Most are: a row's fragments are in
+    /// the order of their triangles.
+    #[inline(always)]
+    fn window(self, s: S) -> Option<Window<S>> {
+        if const { !S::HAS_WINDOWS } {
+            return None;
+        }
+        let mut lane = self.pixels.lane();
+        if self.is_open {
+            // Lanes that hold fragments already are of any triangles.
+            let first = <u32x16<S> as SimdBase<S>>::splat(s, self.lanes.trailing_zeros());
+            lane = s
+                .mask_from_bits(self.lanes)
+                .select(lane, s.permute(lane, first));
+        }
+        Window::new(s, lane)
+    }
+}
+
+/// An order in which lanes take the values of their triangles.
+trait LaneOrder<S: Lanes>: Copy {
+    fn permuted(self, s: S, values: &Packet<f32>) -> f32x16<S>;
+}
+
+impl<S: Lanes> LaneOrder<S> for u32x16<S> {
+    #[inline(always)]
+    fn permuted(self, s: S, values: &Packet<f32>) -> f32x16<S> {
+        of_lanes(s, values, self)
+    }
+}
+
+impl<S: Lanes> LaneOrder<S> for Window<S> {
+    #[inline(always)]
+    fn permuted(self, s: S, values: &Packet<f32>) -> f32x16<S> {
+        self.permute_f32(s, &values.0)
+    }
 }
 
 impl Default for CrossFragments {
@@ -260,7 +299,21 @@ impl CrossPlanes {
         distances: [f32x16<S>; 2],
         out: &mut [Packet<f32>],
     ) {
-        let lane = row.pixels.lane();
+        match row.window(s) {
+            Some(window) => self.varyings_by(s, (row, window), source, distances, out),
+            None => self.varyings_by(s, (row, row.pixels.lane()), source, distances, out),
+        }
+    }
+
+    #[inline(always)]
+    fn varyings_by<S: Lanes>(
+        &self,
+        s: S,
+        (row, order): (Row<S>, impl LaneOrder<S>),
+        source: &VaryingSource<'_>,
+        distances: [f32x16<S>; 2],
+        out: &mut [Packet<f32>],
+    ) {
         let kept = s.mask_from_bits(row.lanes);
         let one = <f32x16<S> as SimdBase<S>>::splat(s, 1.0);
         let (out, derivatives) = out.split_at_mut(source.modes.len());
@@ -268,14 +321,14 @@ impl CrossPlanes {
         let w = if self.equal_w {
             one
         } else {
-            one / evaluate(s, [origin, dx, dy], lane, distances)
+            one / evaluate(s, [origin, dx, dy], order, distances)
         };
         let planes = self.corners[0].iter().zip(self.dx.iter().zip(&self.dy));
         for ((mode, out), (origin, (dx, dy))) in source.modes.iter().zip(&mut *out).zip(planes) {
             let mut value = if *mode == Interpolation::Flat {
-                s.permute_f32(f32x16::load_array_ref(s, &origin.0), lane)
+                order.permuted(s, origin)
             } else {
-                evaluate(s, [origin, dx, dy], lane, distances)
+                evaluate(s, [origin, dx, dy], order, distances)
             };
             if *mode == Interpolation::Smooth {
                 value *= w;
@@ -286,7 +339,7 @@ impl CrossPlanes {
             value.store_array(&mut out.0);
         }
         if !source.gradients.is_empty() {
-            self.derivatives(s, row, (source, w), out, derivatives);
+            self.derivatives(s, (row, order), (source, w), out, derivatives);
         }
     }
 
@@ -295,16 +348,15 @@ impl CrossPlanes {
     fn derivatives<S: Lanes>(
         &self,
         s: S,
-        row: Row<S>,
+        (row, order): (Row<S>, impl LaneOrder<S>),
         (source, w): (&VaryingSource<'_>, f32x16<S>),
         varyings: &[Packet<f32>],
         out: &mut [Packet<f32>],
     ) {
-        let lane = row.pixels.lane();
         let kept = s.mask_from_bits(row.lanes);
         let of_iw = [
-            of_lanes(s, &self.iw[1], lane),
-            of_lanes(s, &self.iw[2], lane),
+            order.permuted(s, &self.iw[1]),
+            order.permuted(s, &self.iw[2]),
         ];
         let is_level = s.mask_from_bits(bits_of_row(s, self.equal_ws, row));
         let zero = <f32x16<S> as SimdBase<S>>::splat(s, 0.0);
@@ -312,8 +364,8 @@ impl CrossPlanes {
         for ((along_x, along_y), &k) in along_x.iter_mut().zip(along_y).zip(source.gradients) {
             let value = f32x16::load_array_ref(s, &varyings[k].0);
             let slopes = [
-                of_lanes(s, &self.dx[k], lane),
-                of_lanes(s, &self.dy[k], lane),
+                order.permuted(s, &self.dx[k]),
+                order.permuted(s, &self.dy[k]),
             ];
             let smooth = smooth_derivatives(slopes, value, of_iw, w);
             // As of one triangle, see `TriangleInterpolant`.
@@ -415,15 +467,12 @@ pub(crate) fn bits_of_row<S: Lanes>(s: S, bits: u16, row: Row<S>) -> u16 {
 #[inline(always)]
 fn evaluate<S: Lanes>(
     s: S,
-    planes: [&Packet<f32>; 3],
-    lane: u32x16<S>,
+    [origin, dx, dy]: [&Packet<f32>; 3],
+    order: impl LaneOrder<S>,
     [x, y]: [f32x16<S>; 2],
 ) -> f32x16<S> {
-    let [origin, dx, dy] = planes;
-    let origin = s.permute_f32(f32x16::load_array_ref(s, &origin.0), lane);
-    let dx = s.permute_f32(f32x16::load_array_ref(s, &dx.0), lane);
-    let dy = s.permute_f32(f32x16::load_array_ref(s, &dy.0), lane);
-    origin + (x * dx + y * dy)
+    let (dx, dy) = (order.permuted(s, dx), order.permuted(s, dy));
+    order.permuted(s, origin) + (x * dx + y * dy)
 }
 
 #[cfg(test)]

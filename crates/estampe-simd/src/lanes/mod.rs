@@ -11,7 +11,7 @@ mod simd128;
 #[cfg(target_arch = "x86_64")]
 mod x86;
 
-use crate::{ByteTable, Columns, Level, Packing};
+use crate::{ByteTable, Columns, Level, Packing, Window};
 use fearless_simd::{
     Select, Simd, SimdBase, SimdFloat, SimdMask, f32x16, i32x16, mask32x16, u32x16,
 };
@@ -23,6 +23,9 @@ pub trait Lanes: Simd {
 
     /// True if one register holds sixteen lanes.
     const IN_ONE_REGISTER: bool = false;
+
+    /// True if permutations from a [`Window`] take less time than others.
+    const HAS_WINDOWS: bool = false;
 
     /// The SIMD level of the token.
     fn as_level(self) -> Level;
@@ -185,6 +188,20 @@ pub trait Lanes: Simd {
     #[inline(always)]
     fn store_packed(self, values: u32x16<Self>, packing: &Packing<Self>, out: &mut [u32; 16]) {
         self.permute(values, packing.order).store_array(out);
+    }
+
+    /// [`Window::new`].
+    #[doc(hidden)]
+    #[inline(always)]
+    fn window(self, _order: u32x16<Self>) -> Option<Window<Self>> {
+        None
+    }
+
+    /// [`Window::permute_f32`].
+    #[doc(hidden)]
+    #[inline(always)]
+    fn permute_window(self, values: &[f32; 16], window: &Window<Self>) -> f32x16<Self> {
+        self.permute_f32(f32x16::load_array_ref(self, values), window.order)
     }
 
     /// Half words as words.

@@ -1,7 +1,7 @@
 //! The levels of x86-64: SSE2, AVX2 and AVX-512.
 
 use super::Lanes;
-use crate::{ByteTable, Columns, Level, Packing};
+use crate::{ByteTable, Columns, Level, Packing, Window};
 use fearless_simd::x86::{Avx2, Avx512, Sse2};
 use fearless_simd::{
     Select, SimdBase, SimdCvtFloat, SimdCvtTruncate, SimdFloat, f32x16, i32x16, mask32x16, u32x16,
@@ -72,6 +72,8 @@ impl Lanes for Sse2 {
 }
 
 impl Lanes for Avx2 {
+    const HAS_WINDOWS: bool = true;
+
     #[inline(always)]
     fn as_level(self) -> Level {
         Level::Avx2(self)
@@ -170,19 +172,27 @@ impl Lanes for Avx2 {
     }
     #[inline(always)]
     fn packing_order(self, lanes: u16) -> u32x16<Self> {
-        crate::permute::packing_avx2(self, lanes)
+        crate::packing::packing_avx2(self, lanes)
     }
     #[inline(always)]
     fn store_packed(self, values: u32x16<Self>, packing: &Packing<Self>, out: &mut [u32; 16]) {
-        crate::permute::store_packed_avx2(self, values, packing, out);
+        crate::packing::store_packed_avx2(self, values, packing, out);
+    }
+    #[inline(always)]
+    fn window(self, order: u32x16<Self>) -> Option<Window<Self>> {
+        crate::packing::window_avx2(self, order)
+    }
+    #[inline(always)]
+    fn permute_window(self, values: &[f32; 16], window: &Window<Self>) -> f32x16<Self> {
+        crate::packing::permute_window_avx2(self, values, window)
     }
     #[inline(always)]
     fn bits_of_mask(self, mask: mask32x16<Self>) -> u16 {
-        crate::permute::bits_of_mask_avx2(self, mask)
+        crate::masks::bits_of_mask_avx2(self, mask)
     }
     #[inline(always)]
     fn sign_bits(self, a: i32x16<Self>) -> u16 {
-        crate::permute::sign_bits_avx2(self, a)
+        crate::masks::sign_bits_avx2(self, a)
     }
     #[inline(always)]
     fn scatter(self, table: &mut [u32], index: u32x16<Self>, values: u32x16<Self>, lanes: u16) {

@@ -125,6 +125,47 @@ fn permutations_take_the_low_four_bits_of_the_order() {
     }
 }
 
+#[inline(always)]
+fn permuted_in_window<S: Lanes>(
+    s: S,
+    values: &[f32; LANES],
+    order: [u32; LANES],
+) -> Option<[f32; LANES]> {
+    let window = Window::new(s, u32x16::load_array(s, order))?;
+    Some(window.permute_f32(s, values).to_array())
+}
+
+#[test]
+fn windows_hold_eight_neighbours_of_each_half() {
+    let mut values = [0.0; LANES];
+    for (value, number) in values.iter_mut().zip(0u8..) {
+        *value = f32::from(number) * 1.25;
+    }
+    let mut state = 3u32;
+    let mut random = |below: u32| {
+        state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        (state >> 8) % below
+    };
+    for level in Level::all_available() {
+        for _ in 0..1000 {
+            let first = [random(16), random(16)];
+            let reach = 1 + random(10);
+            let mut order = [0; LANES];
+            let mut is_window = true;
+            for (lane, at) in order.iter_mut().enumerate() {
+                let first = first[lane / 8];
+                *at = (first + if lane % 8 == 0 { 0 } else { random(reach) }).min(15);
+                is_window &= *at - first.min(8) < 8;
+            }
+            let found = dispatch!(level, s => permuted_in_window(s, &values, order));
+            match found {
+                Some(found) => assert_eq!(found, order.map(|at| values[at as usize])),
+                None => assert!(!is_window || level.name() != "avx2", "{order:?}"),
+            }
+        }
+    }
+}
+
 #[test]
 fn bits_are_listed_in_ascending_order() {
     for level in Level::all_available() {
