@@ -73,7 +73,7 @@ impl Fragments {
         lane: u8,
         covered: &Covered<N>,
     ) {
-        let samples = samples_of(s, &covered.masks, false);
+        let samples = samples_of(s, &covered.masks);
         let places = u32x16::load_array(s, LANE_NUMBERS) + u32::from(covered.packet) * 16;
         let pixels = <u32x16<S> as SimdBase<S>>::splat(s, pixel_of(lane));
         self.add(s, covered.any(), [pixels, places, samples]);

@@ -84,7 +84,7 @@ impl Survivors {
             let packing = Packing::new(s, *lanes);
             packing.store_order(order);
             let is_front = s.mask_from_bits(*front);
-            let samples = samples_of(s, masks, false) | is_front.select(splat(FRONT), splat(0));
+            let samples = samples_of(s, masks) | is_front.select(splat(FRONT), splat(0));
             if let Some(to) = sixteen_mut(&mut self.places, len) {
                 packing.store(s, place.pixels(s), to);
             }
@@ -181,7 +181,7 @@ impl<const N: usize> FragmentQueue<N> {
             let samples = sixteen(&survivors.samples, from);
             let front = s.sign_bits(u32x16::load_array_ref(s, samples).bitcast());
             self.places[after] = Place::of_pixels(sixteen(&survivors.places, from));
-            self.masks[after] = masks_of(s, samples, lanes, false);
+            self.masks[after] = masks_of(s, samples, lanes);
             self.front_facing[after] = front & lanes;
             survivors.begins[after] = from;
             after += 1;

@@ -89,7 +89,7 @@ impl<const N: usize> InOrder<'_, '_, '_, '_, N> {
             let packet = PixelPacket {
                 places,
                 are_quads: false,
-                masks: masks_of(s, samples, lanes, false),
+                masks: masks_of(s, samples, lanes),
                 front: if front { lanes } else { 0 },
             };
             let pixels = WindowPixels::of_places(s, u32x16::load_array_ref(s, places), tile);

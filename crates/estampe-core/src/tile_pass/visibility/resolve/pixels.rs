@@ -141,7 +141,7 @@ impl<'a, const N: usize> Resolver<'a, '_, '_, N> {
                 pixels: Pixels(u32x16::load_array_ref(s, pixels)),
                 places: &places,
                 // Two triangles at one pixel have different samples, in whatever order.
-                masks: masks_of(s, samples, lanes, false),
+                masks: masks_of(s, samples, lanes),
                 are_quads: false,
             };
             self.push_lanes(s, noted, lanes, &pushed);
