@@ -36,6 +36,15 @@ pub fn encode_lanes<S: Lanes>(s: S, value: f32x16<S>) -> u32x16<S> {
     })
 }
 
+/// [`encode_lanes`] of two numbers, in the low and the high 16 bits of each lane.
+#[inline(always)]
+pub fn encode_pair<S: Lanes>(s: S, [low, high]: [f32x16<S>; 2]) -> u32x16<S> {
+    match s.encode_half_pair([low, high]) {
+        Some(codes) => codes,
+        None => encode_lanes(s, low) | (encode_lanes(s, high) << 16),
+    }
+}
+
 /// A half float's number, exactly. A NaN keeps its sign, its mantissa moves up, and it becomes
 /// quiet, as processors' instructions do it.
 #[inline(always)]
@@ -57,4 +66,13 @@ pub fn decode_lanes<S: Lanes>(s: S, half: u32x16<S>) -> f32x16<S> {
         let bits: u32x16<S> = magnitude.bitcast();
         (bits | ((half & splat(0x8000)) << 16)).bitcast()
     })
+}
+
+/// [`decode_lanes`] of the low and the high 16 bits of each lane.
+#[inline(always)]
+pub fn decode_pair<S: Lanes>(s: S, words: u32x16<S>) -> [f32x16<S>; 2] {
+    match s.decode_half_pair(words) {
+        Some(numbers) => numbers,
+        None => [decode_lanes(s, words), decode_lanes(s, words >> 16)],
+    }
 }

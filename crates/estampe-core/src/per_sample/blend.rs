@@ -13,6 +13,9 @@ pub(crate) type ColorLanes<S> = [f32x16<S>; 4];
 
 /// A blend equation, compiled into the loop that stores colours.
 pub(crate) trait BlendKernel: Copy {
+    /// True if it is known that the source replaces the stored colours.
+    const REPLACES: bool = false;
+
     /// Returns true if the stored colours are read.
     fn reads_stored(&self) -> bool;
 
@@ -33,6 +36,8 @@ pub(crate) struct BlendInputs<S: Lanes> {
 pub(crate) struct Replace;
 
 impl BlendKernel for Replace {
+    const REPLACES: bool = true;
+
     #[inline(always)]
     fn reads_stored(&self) -> bool {
         false

@@ -15,7 +15,7 @@ use super::blend::{
     AnyBlend, AnyEquation, BlendInputs, BlendKernel, ColorLanes, CommonOver, Replace,
 };
 use super::logic::combine;
-use crate::fragment::place::{MaskedWords, PacketLayout};
+use crate::fragment::place::{MaskedWords, PacketLayout, Place};
 use crate::fragment::queue::ShadedBatch;
 use crate::pipeline::color_target::{ColorTarget, Equation, MAX_WORDS};
 use estampe_format::attachment::Family;
@@ -184,10 +184,10 @@ struct Target<'a, C> {
 
 impl<C: Copy> Target<'_, C> {
     #[inline(always)]
-    fn write<S: Lanes>(
+    fn write<S: Lanes, K: BlendKernel>(
         &self,
         s: S,
-        kernel: impl BlendKernel,
+        kernel: K,
         batch: &ShadedBatch<'_>,
         stored: &mut [[u32; LANES]],
     ) where
@@ -207,7 +207,14 @@ impl<C: Copy> Target<'_, C> {
             stored: nothing,
         };
         let mut shaded = None;
+        let replaces = const { K::REPLACES } && batch.samples == 1 && !reads_stored;
         for packet in batch.packets() {
+            if replaces && let (&Place::Packet(at), &[mask]) = (packet.place, packet.masks) {
+                let texel = self.codec.encode(s, load(s, packet.color(self.index)));
+                let line = layout.line(usize::from(at), 0, 0);
+                replace_texels(s, &mut stored[line..][..layout.words], texel, mask);
+                continue;
+            }
             // Packets of one colour follow each other.
             if shaded != Some(packet.shaded) {
                 shaded = Some(packet.shaded);
@@ -277,6 +284,28 @@ impl<C: Copy> Target<'_, C> {
             let writable = <u32x16<S> as SimdBase<S>>::splat(s, self.writer.writable[word]);
             *new = (*new & writable) | (*old & !writable);
         }
+    }
+}
+
+/// Stores the words of texels in the lanes of a mask of a packet.
+#[inline(always)]
+fn replace_texels<S: Lanes>(
+    s: S,
+    lines: &mut [[u32; LANES]],
+    texels: [u32x16<S>; MAX_WORDS],
+    mask: u16,
+) {
+    // Where a packet is two registers, a mask takes longer than the branch without one.
+    if const { !S::IN_ONE_REGISTER } && mask == u16::MAX {
+        for (line, texel) in lines.iter_mut().zip(texels) {
+            texel.store_array(line);
+        }
+        return;
+    }
+    let mask = s.mask_from_bits(mask);
+    for (line, texel) in lines.iter_mut().zip(texels) {
+        let old = u32x16::load_array_ref(s, line);
+        mask.select(texel, old).store_array(line);
     }
 }
 

@@ -25,31 +25,28 @@ impl<S: Lanes, const WORDS: usize> PacketCodec<S> for Half<WORDS> {
     #[inline(always)]
     fn decode(self, s: S, words: [u32x16<S>; 4]) -> [f32x16<S>; 4] {
         let splat = |value| <f32x16<S> as SimdBase<S>>::splat(s, value);
-        let [r, b] = [words[0], words[1]];
-        if WORDS == 2 {
-            let high = [
-                half::decode_lanes(s, r >> 16),
-                half::decode_lanes(s, b >> 16),
-            ];
-            let low = [half::decode_lanes(s, r), half::decode_lanes(s, b)];
-            return [low[0], high[0], low[1], high[1]];
-        }
         // Of R16Float the upper half of the word is 0, which is G's number, too.
-        let [red, green] = [half::decode_lanes(s, r), half::decode_lanes(s, r >> 16)];
+        let [red, green] = half::decode_pair(s, words[0]);
+        if WORDS == 2 {
+            let [blue, alpha] = half::decode_pair(s, words[1]);
+            return [red, green, blue, alpha];
+        }
         [red, green, splat(0.0), splat(1.0)]
     }
 
     #[inline(always)]
     fn encode(self, s: S, [r, g, b, a]: [f32x16<S>; 4]) -> [u32x16<S>; 4] {
         let zero = <u32x16<S> as SimdBase<S>>::splat(s, 0);
-        let mut words = [half::encode_lanes(s, r), zero, zero, zero];
         if WORDS == 2 {
-            words[0] |= half::encode_lanes(s, g) << 16;
-            words[1] = half::encode_lanes(s, b) | (half::encode_lanes(s, a) << 16);
-        } else if self.components == 2 {
-            words[0] |= half::encode_lanes(s, g) << 16;
+            let [first, second] = [half::encode_pair(s, [r, g]), half::encode_pair(s, [b, a])];
+            return [first, second, zero, zero];
         }
-        words
+        let first = if self.components == 2 {
+            half::encode_pair(s, [r, g])
+        } else {
+            half::encode_lanes(s, r)
+        };
+        [first, zero, zero, zero]
     }
 }
 

@@ -52,6 +52,8 @@ macro_rules! check_decode {
 fn every_half_is_decoded() {
     let codes = Vec::from_iter(0..=0xFFFF_u32);
     check_decode!(codes, half::decode, s, code => half::decode_lanes(s, code));
+    check_decode!(codes, half::decode, s, code => half::decode_pair(s, code | (!code << 16))[0]);
+    check_decode!(codes, half::decode, s, code => half::decode_pair(s, (code << 16) | (!code >> 16))[1]);
     assert_eq!(half::decode(0x3C00), 1.0);
     assert_eq!(half::decode(0xC000), -2.0);
     assert_eq!(half::decode(1), 2.0_f32.powi(-24));
@@ -84,6 +86,8 @@ fn every_half_survives_and_neighbours_round_to_the_nearer() {
     assert_eq!(half::encode(-f32::NAN), 0x7E00);
     assert_eq!(half::encode(1.0), 0x3C00);
     check_encode!(values, half::encode, s, x => half::encode_lanes(s, x));
+    let pair = |value| half::encode(value) | half::encode(-value) << 16;
+    check_encode!(values, pair, s, x => half::encode_pair(s, [x, -x]));
 }
 
 #[test]

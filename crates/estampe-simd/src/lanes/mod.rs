@@ -234,6 +234,23 @@ pub trait Lanes: Simd {
         None
     }
 
+    /// [`decode_half`](Self::decode_half) of the low and the high half of each lane, if there is a
+    /// shorter way than one after the other.
+    #[inline(always)]
+    fn decode_half_pair(self, words: u32x16<Self>) -> Option<[f32x16<Self>; 2]> {
+        let _ = words;
+        None
+    }
+
+    /// The nearest half floats of two numbers, in the low and the high half of each lane, if there is
+    /// a shorter way than [one after the other](Self::encode_half). Of each NaN the one that is
+    /// positive, quiet and else zero: 0x7E00.
+    #[inline(always)]
+    fn encode_half_pair(self, low_and_high: [f32x16<Self>; 2]) -> Option<u32x16<Self>> {
+        let _ = low_and_high;
+        None
+    }
+
     /// The values of the first row of a packet that is a block of 4×4 pixels, in each lane that of
     /// its column.
     #[inline(always)]

@@ -107,6 +107,14 @@ impl Lanes for Avx2 {
         Some(crate::half::encode_avx2(self, value))
     }
     #[inline(always)]
+    fn decode_half_pair(self, words: u32x16<Self>) -> Option<[f32x16<Self>; 2]> {
+        Some(crate::half::decode_pair_avx2(self, words))
+    }
+    #[inline(always)]
+    fn encode_half_pair(self, low_and_high: [f32x16<Self>; 2]) -> Option<u32x16<Self>> {
+        Some(crate::half::encode_pair_avx2(self, low_and_high))
+    }
+    #[inline(always)]
     fn first_row(self, value: f32x16<Self>) -> f32x16<Self> {
         crate::block::first_row_avx2(self, value)
     }
