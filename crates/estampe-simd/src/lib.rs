@@ -40,6 +40,7 @@ mod lookup;
 #[cfg(target_arch = "x86_64")]
 mod masks;
 mod packing;
+mod paired;
 mod permute;
 #[cfg(target_arch = "x86_64")]
 mod prefetch;

@@ -329,6 +329,19 @@ pub trait Lanes: Simd {
         crate::block::channels(self, rows)
     }
 
+    /// A row of four texels of four channels, whose channels are brought into pairs for
+    /// [`channels_of_paired`](Self::channels_of_paired). Rows can be filtered between.
+    #[inline(always)]
+    fn paired(self, row: f32x16<Self>) -> f32x16<Self> {
+        crate::block::permuted(self, row, crate::paired::PAIRED)
+    }
+
+    /// [`channels_of_rows`](Self::channels_of_rows) of rows in [pairs](Self::paired).
+    #[inline(always)]
+    fn channels_of_paired(self, rows: [f32x16<Self>; 4]) -> [f32x16<Self>; 4] {
+        crate::paired::channels(self, rows)
+    }
+
     /// A mask from its low 16 bits: bit `i` is lane `i`.
     #[inline(always)]
     fn mask_from_bits(self, bits: u16) -> mask32x16<Self> {

@@ -151,6 +151,14 @@ impl Lanes for Avx2 {
         crate::block::channels_avx2(self, rows)
     }
     #[inline(always)]
+    fn paired(self, row: f32x16<Self>) -> f32x16<Self> {
+        crate::paired::paired_avx2(self, row)
+    }
+    #[inline(always)]
+    fn channels_of_paired(self, rows: [f32x16<Self>; 4]) -> [f32x16<Self>; 4] {
+        crate::paired::channels_of_paired_avx2(self, rows)
+    }
+    #[inline(always)]
     fn gather(self, table: &[u32], index: u32x16<Self>) -> u32x16<Self> {
         crate::gather::avx2(self, table, index)
     }
@@ -282,6 +290,14 @@ impl Lanes for Avx512 {
     #[inline(always)]
     fn channels_of_rows(self, rows: [f32x16<Self>; 4]) -> [f32x16<Self>; 4] {
         crate::block::channels_avx512(self, rows)
+    }
+    #[inline(always)]
+    fn paired(self, row: f32x16<Self>) -> f32x16<Self> {
+        crate::paired::paired_avx512(self, row)
+    }
+    #[inline(always)]
+    fn channels_of_paired(self, rows: [f32x16<Self>; 4]) -> [f32x16<Self>; 4] {
+        crate::paired::channels_of_paired_avx512(self, rows)
     }
     #[inline(always)]
     fn gather(self, table: &[u32], index: u32x16<Self>) -> u32x16<Self> {

@@ -12,6 +12,11 @@ fn of_block<S: Lanes>(s: S, rows: &[[f32; LANES]; 4]) -> [[f32; LANES]; 8] {
         f32x16::load_array_ref(s, &rows[3]),
     ];
     let [r, g, blue, alpha] = s.channels_of_rows([a, b, c, d]);
+    let rows = [s.paired(a), s.paired(b), s.paired(c), s.paired(d)];
+    let of_paired = s.channels_of_paired(rows);
+    for (paired, channel) in of_paired.iter().zip([r, g, blue, alpha]) {
+        assert_eq!(paired.to_array(), channel.to_array(), "channels of pairs");
+    }
     [
         r.to_array(),
         g.to_array(),

@@ -17,8 +17,8 @@ use crate::view::plane::Plane;
 use crate::view::{PacketLod, PacketRequest, SampledTexture};
 use crate::wrap::{Place, place_by_lane, wrap};
 use estampe_simd::{
-    Bytes, Columns, Lanes as SimdLanes, Packet as Values, SimdBase, dispatch, f32x16, i32x16,
-    mask32x16, u32x16, words_of,
+    Bytes, Columns, LANES, Lanes as SimdLanes, Packet as Values, SimdBase, dispatch, f32x16,
+    i32x16, mask32x16, u32x16, words_of,
 };
 use estampe_types::{AddressMode, Real, ViewDimension};
 
@@ -153,20 +153,21 @@ impl<'a, S: SimdLanes> BlockLevel<'a, S> {
         spot: &mut Spot,
     ) -> bool {
         let (both, stands) = columns_and_rows(s, uv);
-        let [has_next, _] = self.place::<CLAMPS>(s, both, spot);
+        let ([fractions, texels], [has_next, _]) = self.place::<CLAMPS>(s, both);
+        *spot = [packet(fractions, 0), packet(texels, 0)];
         s.bits_of_mask(stands) & has_next == u16::MAX
     }
 
-    /// Finds where columns and rows stand whose coordinates, unwrapped, are given. Returns those
-    /// whose texel has a neighbour, and those that are as far from the first column, or row, as
-    /// they would be if all were neighbours.
+    /// Finds where columns and rows stand whose coordinates, unwrapped, are given, of two spots:
+    /// one in lanes 0 to 7, the other one in lanes 8 to 15. Returns what a [spot](Spot) has, and
+    /// the lanes whose texel has a neighbour, and those that are as far from the first column, or
+    /// row, as they would be if all were neighbours.
     #[inline(always)]
     pub(super) fn place<const CLAMPS: bool>(
         &self,
         s: S,
         both: f32x16<S>,
-        [fractions, texels]: &mut Spot,
-    ) -> [u16; 2] {
+    ) -> ([f32x16<S>; 2], [u16; 2]) {
         let mode = if CLAMPS {
             AddressMode::ClampToEdge
         } else {
@@ -176,11 +177,9 @@ impl<'a, S: SimdLanes> BlockLevel<'a, S> {
             place_by_lane(wrap(both, mode), self.lengths, self.last, mode);
         let last: i32x16<S> = self.last.to_int_within_range();
         let [texel, end]: [u32x16<S>; 2] = [texel.bitcast(), last.bitcast()];
-        *fractions = packet(fraction, 0);
-        *texels = packet(texel.bitcast::<f32x16<S>>(), 0);
-        // Lanes after the first eight repeat them.
         let has_next: mask32x16<S> = texel.simd_lt(end);
-        [s.bits_of_mask(has_next), neighbours(s, texel)]
+        let lanes = [s.bits_of_mask(has_next), neighbours(s, texel)];
+        ([fraction, texel.bitcast()], lanes)
     }
 
     /// The colours of a block.
@@ -227,20 +226,22 @@ impl<'a, S: SimdLanes> BlockLevel<'a, S> {
     /// rows, each filtered once, among a few.
     #[inline(always)]
     fn apart(&self, s: S, footprint: Footprint<'_>) -> Option<[f32x16<S>; 4]> {
-        let mut lines = [footprint.across(s); MOST_LINES];
+        let mut lines = [Values([0.0; LANES]); MOST_LINES];
         // Rows go down or, in a mirrored texture, up.
         let [first, last] = [footprint.row(0), footprint.row(3)];
         let top = Ord::min(first, last);
         let bottom = Ord::max(first, last) + 1;
         let lines = lines.get_mut(..=(bottom - top).cast_unsigned() as usize)?;
         let columns = (footprint, footprint.columns_are_neighbours());
-        self.lines(s, columns, top, lines)?;
-        let mut filtered = [lines[0]; 4];
+        self.lines::<false>(s, columns, top, lines)?;
+        let mut filtered = [<f32x16<S> as SimdBase<S>>::splat(s, 0.0); 4];
         let mut row = 0;
         while row < 4 {
             // In a mirrored texture, a row between may be beyond the first and the last.
             let at = footprint.row(row).wrapping_sub(top).cast_unsigned() as usize;
-            let &[upper, lower] = lines.get(at..)?.first_chunk()?;
+            let [upper, lower] = lines.get(at..)?.first_chunk()?;
+            let upper = f32x16::load_array_ref(s, &upper.0);
+            let lower = f32x16::load_array_ref(s, &lower.0);
             filtered[row] = upper + (lower - upper) * footprint.down(s, row);
             row += 1;
         }
@@ -248,14 +249,15 @@ impl<'a, S: SimdLanes> BlockLevel<'a, S> {
     }
 
     /// Rows of texels from `top` on, filtered between the texels of a block's columns, which are
-    /// neighbours, or not; `None` if these are not among eight, or not in memory.
+    /// neighbours, or not, and brought into [pairs](SimdLanes::paired) or not; `None` if the
+    /// columns are not among eight, or not in memory.
     #[inline(always)]
-    pub(super) fn lines(
+    pub(super) fn lines<const PAIRS: bool>(
         &self,
         s: S,
         (footprint, are_neighbours): (Footprint<'_>, bool),
         top: i32,
-        lines: &mut [f32x16<S>],
+        lines: &mut [Values<f32>],
     ) -> Option<()> {
         let across = footprint.across(s);
         // Columns go to the right or, in a mirrored texture, to the left.
@@ -266,7 +268,8 @@ impl<'a, S: SimdLanes> BlockLevel<'a, S> {
                 if at > 0 {
                     texels = texels.get(self.row_words..)?;
                 }
-                *line = neighbours_across(s, texels.first_chunk()?, across)?;
+                let filtered = neighbours_across(s, texels.first_chunk()?, across)?;
+                *line = line_of::<S, PAIRS>(s, filtered);
             }
             return Some(());
         }
@@ -278,7 +281,8 @@ impl<'a, S: SimdLanes> BlockLevel<'a, S> {
                     texels = texels.get(self.row_words..)?;
                 }
                 let [left, right] = s.half_texels_of_four(texels.first_chunk()?, &columns)?;
-                *line = left + (right - left) * across;
+                let filtered = left + (right - left) * across;
+                *line = line_of::<S, PAIRS>(s, filtered);
             }
             return Some(());
         }
@@ -287,7 +291,8 @@ impl<'a, S: SimdLanes> BlockLevel<'a, S> {
                 texels = texels.get(self.row_words..)?;
             }
             let [left, right] = s.half_texels(texels.first_chunk()?, &columns)?;
-            *line = left + (right - left) * across;
+            let filtered = left + (right - left) * across;
+            *line = line_of::<S, PAIRS>(s, filtered);
         }
         Some(())
     }
@@ -322,6 +327,12 @@ fn neighbours_across<S: SimdLanes>(
     Some(left + (right - left) * across)
 }
 
+/// A row of texels in memory, in [pairs](SimdLanes::paired) or not.
+#[inline(always)]
+fn line_of<S: SimdLanes, const PAIRS: bool>(s: S, row: f32x16<S>) -> Values<f32> {
+    packet(if PAIRS { s.paired(row) } else { row }, 0)
+}
+
 /// The coordinates of the columns and rows of the samples at (u, v), and the lanes that stand in
 /// them.
 #[inline(always)]
@@ -341,7 +352,8 @@ pub(super) fn columns_and_rows<S: SimdLanes>(
 #[inline(always)]
 fn neighbours<S: SimdLanes>(s: S, texel: u32x16<S>) -> u16 {
     let first = texel - u32x16::load_array(s, [0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3]);
-    let order = u32x16::load_array(s, [0, 0, 0, 0, 4, 4, 4, 4, 0, 0, 0, 0, 4, 4, 4, 4]);
+    let order = [0, 0, 0, 0, 4, 4, 4, 4, 8, 8, 8, 8, 12, 12, 12, 12];
+    let order = u32x16::load_array(s, order);
     let is_same: mask32x16<S> = first.simd_eq(s.permute(first, order));
     s.bits_of_mask(is_same)
 }

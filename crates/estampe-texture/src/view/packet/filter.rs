@@ -13,12 +13,14 @@
 use super::ahead::Ahead;
 use super::block::{BlockLevel, Footprint, Spot, columns_and_rows};
 use super::shifts::TapShifts;
-use super::square::{PACKETS, SquarePlaces};
+use super::square::{PACKETS, SquareLines, SquarePlaces};
 use super::taps::{Lines, MOST_LINES, MOST_TAPS, all_of};
 use crate::PacketPlaces;
 use crate::view::SampledTexture;
 use crate::view::coordinates::{Answers, packet};
-use estampe_simd::{LANES, Lanes as SimdLanes, Packet as Values, SimdBase, dispatch, f32x16};
+use estampe_simd::{
+    LANES, Lanes as SimdLanes, Packet as Values, SimdBase, SimdSplit, dispatch, f32x16,
+};
 use estampe_types::AddressMode;
 use std::cell::RefCell;
 
@@ -31,7 +33,9 @@ thread_local! {
         RefCell::new(Places {
             spots: [[Values([0.0; LANES]); 2]; MOST_SPOTS],
             found: [Found::NONE; MOST_TAPS],
+            lines: [Values([0.0; LANES]); MOST_LINES + 1],
             square: SquarePlaces::NONE,
+            square_lines: SquareLines::NONE,
         })
     };
 }
@@ -41,7 +45,10 @@ struct Places {
     spots: [Spot; MOST_SPOTS],
     /// By packet.
     found: [Found; MOST_TAPS],
+    /// Rows of texels of one packet.
+    lines: [Values<f32>; MOST_LINES + 1],
     square: SquarePlaces,
+    square_lines: SquareLines,
 }
 
 const _: () = assert!(PACKETS == MOST_TAPS, "a square is a batch");
@@ -74,14 +81,14 @@ impl SampledTexture {
     #[must_use]
     pub fn filters_a_square(&self, places: &PacketPlaces<'_>, shifts: &TapShifts) -> bool {
         let mut colors = vec![Answers::default(); PACKETS * shifts.of_taps().len()];
-        let mut square = SquarePlaces::NONE;
+        let (mut square, mut lines) = (SquarePlaces::NONE, SquareLines::NONE);
         dispatch!(@specialized_move self.level, s => {
             let Some(level) = BlockLevel::new(s, self, &self.view.planes[0]) else {
                 return false;
             };
             let (of, mut ahead) = ((places, shifts), Ahead::default());
-            let others =
-                level.filter_square::<false>(s, of, &mut square, &mut ahead, &mut colors);
+            let memory = (&mut square, &mut lines);
+            let others = level.filter_square::<false>(s, of, memory, &mut ahead, &mut colors);
             places.each().count() == PACKETS && others.is_some()
         }, others => false)
     }
@@ -125,7 +132,9 @@ impl SampledTexture {
         let Places {
             spots,
             found,
+            lines,
             square,
+            square_lines,
         } = memory;
         let taps = shifts.of_taps().len();
         let mut ahead = Ahead::default();
@@ -134,12 +143,11 @@ impl SampledTexture {
         {
             let plane = &self.view.planes[0];
             ahead = Ahead::new(level.rows(), plane, uv, shifts);
-            let of = (places, shifts);
-            if let Some(others) = level.filter_square::<CLAMPS>(s, of, square, &mut ahead, colors) {
+            let (of, memory) = ((places, shifts), (square, square_lines));
+            if let Some(others) = level.filter_square::<CLAMPS>(s, of, memory, &mut ahead, colors) {
                 return others;
             }
         }
-        let mut lines = [level.lengths; MOST_LINES + 1];
         let mut coordinates = places.each();
         let mut packets = colors.chunks_exact_mut(taps).zip(&mut others);
         loop {
@@ -154,7 +162,7 @@ impl SampledTexture {
             let of_packets = spots.chunks_exact(shifts.spot_count).zip(&*found);
             for (of_packet, (colors, others)) in of_packets.take(count).zip(&mut packets) {
                 ahead.step(s);
-                *others = level.filter_all::<CLAMPS>(s, shifts, of_packet, colors, &mut lines);
+                *others = level.filter_all::<CLAMPS>(s, shifts, of_packet, colors, lines);
             }
             if count == 0 {
                 return others;
@@ -217,7 +225,8 @@ impl<S: SimdLanes> BlockLevel<'_, S> {
         }
     }
 
-    /// Finds columns and rows at all shifts from those whose coordinates are given.
+    /// Finds columns and rows at all shifts from those whose coordinates are given, two shifts at a
+    /// time. Of spots, the lanes that are not of columns and rows are unspecified.
     #[inline(always)]
     pub(super) fn find_shifts<const CLAMPS: bool>(
         &self,
@@ -227,12 +236,18 @@ impl<S: SimdLanes> BlockLevel<'_, S> {
         (spots, found): (&mut [Spot], &mut Found),
     ) {
         let mut inside = u16::MAX;
-        let at_shifts = spots.iter_mut().zip(&shifts.spots);
-        let of_shifts = found.has_next.iter_mut().zip(&mut found.neighbours);
-        for ((spot, shift), (has_next, neighbours)) in at_shifts.zip(of_shifts) {
+        let (of_next, _) = found.has_next.as_chunks_mut::<2>();
+        let (of_neighbours, _) = found.neighbours.as_chunks_mut::<2>();
+        let found_of = of_next.iter_mut().zip(of_neighbours);
+        let pairs = spots.chunks_mut(2).zip(&shifts.pairs);
+        for ((spots, shift), (of_next, of_neighbours)) in pairs.zip(found_of) {
             let shifted = both + f32x16::load_array_ref(s, &shift.0);
-            [*has_next, *neighbours] = self.place::<CLAMPS>(s, shifted, spot);
-            inside &= *has_next;
+            let (values, [has_next, neighbours]) = self.place::<CLAMPS>(s, shifted);
+            store_halves(values[0], spots, 0);
+            store_halves(values[1], spots, 1);
+            *of_next = has_next.to_le_bytes().map(u16::from);
+            *of_neighbours = neighbours.to_le_bytes().map(u16::from);
+            inside &= has_next;
         }
         found.is_inside = inside == u16::MAX;
     }
@@ -245,7 +260,7 @@ impl<S: SimdLanes> BlockLevel<'_, S> {
         shifts: &TapShifts,
         (spots, found): (&[Spot], &Found),
         colors: &mut [Answers],
-        lines: &mut [f32x16<S>; MOST_LINES + 1],
+        lines: &mut [Values<f32>; MOST_LINES + 1],
     ) -> u32 {
         let mut others = 0;
         for (column, (columns, &taps)) in spots.iter().zip(&shifts.columns).enumerate() {
@@ -292,7 +307,7 @@ impl<S: SimdLanes> BlockLevel<'_, S> {
         shifts: &TapShifts,
         ((columns, column), spots, found): ((&Spot, usize), &[Spot], &Found),
         colors: &mut [Answers],
-        lines: &mut [f32x16<S>; MOST_LINES + 1],
+        lines: &mut [Values<f32>; MOST_LINES + 1],
     ) -> bool {
         let taps = shifts.columns[column % MOST_TAPS];
         let mut of = Lines::NONE;
@@ -330,5 +345,18 @@ impl<S: SimdLanes> BlockLevel<'_, S> {
             *colors = [packet(r, 0), packet(g, 0), packet(b, 0), packet(a, 0)];
         }
         true
+    }
+}
+
+/// Stores one value of two spots, or of one.
+#[inline(always)]
+fn store_halves<S: SimdLanes>(value: f32x16<S>, spots: &mut [Spot], at: usize) {
+    let (first, second) = value.split();
+    let [spot, next @ ..] = spots else {
+        return;
+    };
+    first.store_slice(&mut spot[at].0[..LANES / 2]);
+    if let [spot, ..] = next {
+        second.store_slice(&mut spot[at].0[..LANES / 2]);
     }
 }

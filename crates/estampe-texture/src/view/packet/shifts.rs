@@ -11,9 +11,10 @@ pub struct TapShifts {
     of_taps: [[f32; 2]; MOST_TAPS],
     count: usize,
     /// The shifts of u in the lanes of columns, and those of v in the lanes of rows, each once, in
-    /// the order of [`columns_and_rows`](estampe_simd::Lanes::columns_and_rows). If there are fewer
-    /// of one, its first is repeated.
-    pub(super) spots: [Values<f32>; MOST_TAPS],
+    /// the order of [`columns_and_rows`](estampe_simd::Lanes::columns_and_rows): in lanes 0 to 7
+    /// those of an even number, in the others those of the next number. If there are fewer of one,
+    /// its first is repeated; a last one without a next one fills all lanes.
+    pub(super) pairs: [Values<f32>; MOST_TAPS / 2],
     /// The number of them that count.
     pub(super) spot_count: usize,
     /// For each shift of u its taps: bit `i` is tap `i`.
@@ -33,7 +34,7 @@ impl TapShifts {
     pub const UNSHIFTED: Self = Self {
         of_taps: [[-0.0; 2]; MOST_TAPS],
         count: 1,
-        spots: [Values([-0.0; LANES]); MOST_TAPS],
+        pairs: [Values([-0.0; LANES]); MOST_TAPS / 2],
         spot_count: 1,
         columns: {
             let mut columns = [0; MOST_TAPS];
@@ -75,10 +76,11 @@ impl TapShifts {
         }
         shifts.extents = [along_u.extent(), along_v.extent()];
         shifts.spot_count = along_u.count.max(along_v.count);
-        for (number, to) in shifts.spots[..shifts.spot_count].iter_mut().enumerate() {
-            let [u, v] = [along_u.get(number), along_v.get(number)];
+        for (pair, to) in shifts.pairs.iter_mut().enumerate() {
             for (lane, to) in to.0.iter_mut().enumerate() {
-                *to = if lane % 8 < 4 { u } else { v };
+                let next = usize::from(lane >= LANES / 2 && 2 * pair + 1 < shifts.spot_count);
+                let along = if lane % 8 < 4 { &along_u } else { &along_v };
+                *to = along.get(2 * pair + next);
             }
         }
         shifts
@@ -142,6 +144,20 @@ impl Axis {
 mod tests {
     use super::*;
 
+    /// The lanes of a number of the shifts.
+    fn spot(shifts: &TapShifts, number: usize) -> &[f32] {
+        &shifts.pairs[number / 2].0[number % 2 * 8..][..8]
+    }
+
+    #[test]
+    fn a_shift_without_a_next_one_fills_all_lanes() {
+        let shifts = TapShifts::new(&[[1.0, 4.0], [2.0, 5.0], [3.0, 6.0]]);
+        let of = |[u, v]: [f32; 2]| [u, u, u, u, v, v, v, v];
+        assert_eq!(spot(&shifts, 1), of([2.0, 5.0]));
+        assert_eq!(spot(&shifts, 2), of([3.0, 6.0]));
+        assert_eq!(spot(&shifts, 3), of([3.0, 6.0]));
+    }
+
     #[test]
     fn taps_of_a_square_stand_in_three_columns_and_rows() {
         let at = |tap: usize| [tap / 3, tap % 3].map(|at| at as f32 - 1.0);
@@ -156,7 +172,7 @@ mod tests {
             assert_eq!(shifts.row_of(tap), tap % 3);
         }
         for (number, at) in [-1.0, 0.0, 1.0].into_iter().enumerate() {
-            assert_eq!(shifts.spots[number].0, [at; LANES]);
+            assert_eq!(spot(&shifts, number), [at; LANES / 2]);
         }
     }
 
@@ -165,7 +181,8 @@ mod tests {
         let shifts = TapShifts::new(&[[-0.0, 3.0], [0.0, -2.0], [0.0, 5.0]]);
         assert_eq!((shifts.spot_count, shifts.columns[0]), (3, 0b111));
         assert_eq!(shifts.ends[0], [1, 2]);
-        let [columns, rows] = [0, 4].map(|lane| shifts.spots[..3].iter().map(move |of| of.0[lane]));
+        let spots = [0, 1, 2].map(|number| spot(&shifts, number));
+        let [columns, rows] = [0, 4].map(|lane| spots.iter().map(move |spot| spot[lane]));
         assert!(columns.eq([0.0; 3]) && rows.eq([3.0, -2.0, 5.0]));
     }
 

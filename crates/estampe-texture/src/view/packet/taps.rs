@@ -165,7 +165,7 @@ impl<S: SimdLanes> BlockLevel<'_, S> {
         let mut sharing = 0;
         if count > 0 {
             // Rows of texels, filtered along x, of one group after the other.
-            let mut lines = [self.lengths; MOST_LINES + 1];
+            let mut lines = [Values([0.0; LANES]); MOST_LINES + 1];
             for &taps in groups.iter().take(count) {
                 if self.sample_group(s, places, (spots, taps), colors, &mut lines) {
                     sharing |= taps;
@@ -184,7 +184,7 @@ impl<S: SimdLanes> BlockLevel<'_, S> {
         places: &PacketPlaces<'_>,
         (spots, taps): (&[Spot; MOST_TAPS], u32),
         colors: &mut [Answers],
-        lines: &mut [f32x16<S>; MOST_LINES + 1],
+        lines: &mut [Values<f32>; MOST_LINES + 1],
     ) -> bool {
         let first = taps.trailing_zeros() as usize % MOST_TAPS;
         let Some(u) = places.u_of(first) else {
@@ -225,22 +225,28 @@ impl<S: SimdLanes> BlockLevel<'_, S> {
         true
     }
 
-    /// Filters rows of texels along x for taps of the same columns. False if the rows are too many,
-    /// or texels far apart or not in memory.
+    /// Filters rows of texels along x for taps of the same columns, and brings them into
+    /// [pairs](SimdLanes::paired). False if the rows are too many, or texels far apart or not in
+    /// memory.
     #[inline(always)]
     pub(super) fn filter_lines<const ROOM: usize>(
         &self,
         s: S,
         columns: (Footprint<'_>, bool),
         of: &Lines,
-        lines: &mut [f32x16<S>; ROOM],
+        lines: &mut [Values<f32>; ROOM],
     ) -> bool {
         let last = of.bottom.wrapping_sub(of.top).cast_unsigned() as usize + 1;
-        last < ROOM - 1
+        last < lines_of_room(ROOM)
             && self
-                .lines(s, columns, of.top, &mut lines[..=last])
+                .lines::<true>(s, columns, of.top, &mut lines[..=last])
                 .is_some()
     }
+}
+
+/// The most lines in memory with room for some more: a power of two.
+const fn lines_of_room(room: usize) -> usize {
+    1 << (room - 1).ilog2()
 }
 
 /// The rows of texels that taps of the same columns share.
@@ -275,25 +281,49 @@ impl Lines {
         self.bottom = self.bottom.max(last);
     }
 
-    /// The channels of a tap whose rows are between these, which are filtered along x. The number
-    /// of lines is a power of two and one.
+    /// The channels of a tap whose rows are between these, which are filtered along x and in pairs.
+    /// The number of lines is a power of two and at least one.
     #[inline(always)]
     pub(super) fn between<S: SimdLanes, const ROOM: usize>(
         &self,
         s: S,
         tap: Footprint<'_>,
-        lines: &[f32x16<S>; ROOM],
+        lines: &[Values<f32>; ROOM],
     ) -> [f32x16<S>; 4] {
-        let mut filtered = [lines[0]; 4];
+        let mut filtered = [<f32x16<S> as SimdBase<S>>::splat(s, 0.0); 4];
         let mut row = 0;
         while row < 4 {
             let line = tap.row(row).wrapping_sub(self.top).cast_unsigned() as usize;
             // Below the number of lines already: without a test.
-            let line = line % (ROOM - 1);
-            let (upper, lower) = (lines[line], lines[line + 1]);
+            let line = line % const { lines_of_room(ROOM) };
+            let upper = f32x16::load_array_ref(s, &lines[line].0);
+            let lower = f32x16::load_array_ref(s, &lines[line + 1].0);
             filtered[row] = upper + (lower - upper) * tap.down(s, row);
             row += 1;
         }
-        s.channels_of_rows(filtered)
+        s.channels_of_paired(filtered)
+    }
+
+    /// [`between`](Self::between) of a tap whose rows are neighbours: five lines, each loaded once.
+    /// There is room for four lines more than a power of two.
+    #[inline(always)]
+    pub(super) fn between_neighbours<S: SimdLanes, const ROOM: usize>(
+        &self,
+        s: S,
+        tap: Footprint<'_>,
+        lines: &[Values<f32>; ROOM],
+    ) -> [f32x16<S>; 4] {
+        let line = tap.row(0).wrapping_sub(self.top).cast_unsigned() as usize;
+        let line = line % const { ROOM - 4 };
+        let mut upper = f32x16::load_array_ref(s, &lines[line].0);
+        let mut filtered = [upper; 4];
+        let mut row = 0;
+        while row < 4 {
+            let lower = f32x16::load_array_ref(s, &lines[line + row + 1].0);
+            filtered[row] = upper + (lower - upper) * tap.down(s, row);
+            upper = lower;
+            row += 1;
+        }
+        s.channels_of_paired(filtered)
     }
 }
