@@ -223,5 +223,5 @@ pub(crate) use {
     fours::{four_avx2, four_avx512, four_sse2},
     pairs::pair_avx512,
     single::{avx2, avx512, scatter_avx512},
-    squares::square_sse2,
+    squares::{pair_avx2, square_sse2},
 };

@@ -1,4 +1,4 @@
-//! Squares of four elements, by loads of eight bytes.
+//! Squares of four elements, and pairs, by loads of eight bytes.
 #![expect(unsafe_code, reason = "a check of each lane's index costs too much")]
 
 use super::last_square;
@@ -108,6 +108,33 @@ pub(crate) fn square_avx2(
         row += 1;
     }
     four
+}
+
+/// [`Lanes::gather_pair`](crate::Lanes::gather_pair) by loads of eight bytes.
+#[inline(always)]
+pub(crate) fn pair_avx2(simd: Avx2, table: &[u32], index: u32x16<Avx2>) -> [u32x16<Avx2>; 2] {
+    let Some(last) = last_square(table, 0) else {
+        return [u32x16::splat(simd, 0); 2];
+    };
+    let index = scalars(index.min(u32x16::splat(simd, last)));
+    let base = table.as_ptr();
+    // SAFETY: SSE2 is x86-64's baseline.
+    let mut pairs = [unsafe { _mm_setzero_si128() }; LANES / 2];
+    let mut pair = 0;
+    while pair < LANES / 2 {
+        let [a, b] = [index[2 * pair] as usize, index[2 * pair + 1] as usize];
+        // SAFETY: `a` is at most `last`, so `a + 1` is in the table, and all eight bytes are
+        // inside.
+        let a = unsafe { base.wrapping_add(a).cast::<u64>().read_unaligned() };
+        // SAFETY: the same of `b`.
+        let b = unsafe { base.wrapping_add(b).cast::<u64>().read_unaligned() };
+        pairs[pair] = joined(a, b);
+        pair += 1;
+    }
+    let [a, b, c, d, e, f, g, h] = pairs;
+    let [left, right] = divide_256(simd, join_256(simd, a, c), join_256(simd, b, d));
+    let [left_2, right_2] = divide_256(simd, join_256(simd, e, g), join_256(simd, f, h));
+    [left.combine(left_2), right.combine(right_2)]
 }
 
 #[inline(always)]

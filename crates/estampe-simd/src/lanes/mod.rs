@@ -27,6 +27,10 @@ pub trait Lanes: Simd {
     /// True if permutations from a [`Window`] take less time than others.
     const HAS_WINDOWS: bool = false;
 
+    /// True if [`gather_pair`](Self::gather_pair) loads pairs lane by lane, in about the time of
+    /// one gather of single elements.
+    const LOADS_PAIRS: bool = false;
+
     /// The SIMD level of the token.
     fn as_level(self) -> Level;
 

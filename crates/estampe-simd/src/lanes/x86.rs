@@ -73,6 +73,7 @@ impl Lanes for Sse2 {
 
 impl Lanes for Avx2 {
     const HAS_WINDOWS: bool = true;
+    const LOADS_PAIRS: bool = true;
 
     #[inline(always)]
     fn as_level(self) -> Level {
@@ -169,6 +170,10 @@ impl Lanes for Avx2 {
     #[inline(always)]
     fn gather_square(self, table: &[u32], index: u32x16<Self>, stride: u32) -> [u32x16<Self>; 4] {
         crate::gather::square_avx2(self, table, index, stride)
+    }
+    #[inline(always)]
+    fn gather_pair(self, table: &[u32], index: u32x16<Self>) -> [u32x16<Self>; 2] {
+        crate::gather::pair_avx2(self, table, index)
     }
     #[inline(always)]
     fn gather_four(self, table: &[u32], index: u32x16<Self>) -> [u32x16<Self>; 4] {

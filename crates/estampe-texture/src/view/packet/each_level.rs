@@ -20,7 +20,9 @@ use crate::filter::mix_colors;
 use crate::texel::Corners;
 use crate::view::plane::Plane;
 use crate::wrap::tile_lanes;
-use estampe_simd::{Bytes, Lanes as SimdLanes, f32x16, i32x16, u32x16};
+use estampe_simd::{
+    Bytes, Lanes as SimdLanes, Select, SimdBase, f32x16, i32x16, mask32x16, u32x16,
+};
 use estampe_types::{AddressMode, Int, Real, Vec4};
 
 /// The most mip levels of a table: the longest chain of a texture has 15.
@@ -93,11 +95,7 @@ impl Packet<'_> {
                 self.around(spots, &own)
             };
             let texels = &self.of.view.texture.texels[..];
-            let Corners { upper, lower } = around.texels;
-            let corners = Corners {
-                upper: [upper[0].gather(texels), upper[1].gather(texels)],
-                lower: [lower[0].gather(texels), lower[1].gather(texels)],
-            };
+            let corners = gathered(s, texels, around.texels);
             let next = mean_of_bytes::<S, KIND>(s, corners, around.x, around.y);
             color = match step {
                 0 => next,
@@ -185,6 +183,41 @@ impl Packet<'_> {
             x,
             y,
         }
+    }
+}
+
+/// Four texels of each lane.
+#[inline(always)]
+fn gathered<S: SimdLanes>(
+    s: S,
+    texels: &[u32],
+    Corners { upper, lower }: Corners<i32x16<S>>,
+) -> Corners<i32x16<S>> {
+    // Most right texels follow the left ones in memory; at a clamped border they are the same.
+    if const { S::LOADS_PAIRS } {
+        let steps: [u32x16<S>; 2] = [
+            (upper[1] - upper[0]).bitcast(),
+            (lower[1] - lower[0]).bitcast(),
+        ];
+        let [above, below]: [u32x16<S>; 2] = [upper[0].bitcast(), lower[0].bitcast()];
+        let pairs = u32::try_from(texels.len()).unwrap_or(0).saturating_sub(1);
+        let [one, pairs]: [u32x16<S>; 2] = [SimdBase::splat(s, 1), SimdBase::splat(s, pairs)];
+        let are_pairs: mask32x16<S> =
+            (steps[0] | steps[1]).simd_le(one) & above.max(below).simd_lt(pairs);
+        if s.bits_of_mask(are_pairs) == u16::MAX {
+            let [a, b] = s.gather_pair(texels, above);
+            let [c, d] = s.gather_pair(texels, below);
+            let follows: [mask32x16<S>; 2] = [steps[0].simd_eq(one), steps[1].simd_eq(one)];
+            let (b, d) = (follows[0].select(b, a), follows[1].select(d, c));
+            return Corners {
+                upper: [a.bitcast(), b.bitcast()],
+                lower: [c.bitcast(), d.bitcast()],
+            };
+        }
+    }
+    Corners {
+        upper: [upper[0].gather(texels), upper[1].gather(texels)],
+        lower: [lower[0].gather(texels), lower[1].gather(texels)],
     }
 }
 
