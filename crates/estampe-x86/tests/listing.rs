@@ -97,3 +97,13 @@ fn packets_of_a_pass_loop_one_after_the_other() {
         .collect();
     assert_eq!(order, ["vminps", "vmaxps", "vminps", "vmaxps"], "{pair}");
 }
+
+/// The sign of a sine is turned by the units for floats, which made it.
+#[test]
+fn logic_of_floats_stays_in_the_units_for_floats() {
+    if !Isa::Avx2.is_available() {
+        return;
+    }
+    let listing = Code::listing(&kernel(), Isa::Avx2, Tier::Optimised).expect("it is small");
+    assert!(listing.contains(" vxorps ymm"), "{listing}");
+}

@@ -161,6 +161,11 @@ table! {
     AND = VectorOp::both("vpand", P66, 1, 0xDB).evex_name("vpandd");
     OR = VectorOp::both("vpor", P66, 1, 0xEB).evex_name("vpord");
     XOR = VectorOp::both("vpxor", P66, 1, 0xEF).evex_name("vpxord");
+    // The same with VEX prefixes, beside operations of floats.
+    AND_F = VectorOp::both("vandps", NONE, 1, 0x54).vex_only();
+    AND_NOT_F = VectorOp::both("vandnps", NONE, 1, 0x55).vex_only();
+    OR_F = VectorOp::both("vorps", NONE, 1, 0x56).vex_only();
+    XOR_F = VectorOp::both("vxorps", NONE, 1, 0x57).vex_only();
     AND_NOT = VectorOp::both("vpandn", P66, 1, 0xDF).evex_name("vpandnd");
     SHL = VectorOp::both("vpsllvd", P66, 2, 0x47);
     SHR_U = VectorOp::both("vpsrlvd", P66, 2, 0x45);

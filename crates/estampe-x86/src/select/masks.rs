@@ -102,11 +102,12 @@ impl Selector<'_> {
 
     pub(super) fn mask_binary(&mut self, kind: MaskBinary, pair: [Value; 2], half: usize) -> VReg {
         let [a, b] = pair.map(|value| self.mask(value, half));
+        // Most masks come from floats and choose among floats.
         let (on_vectors, on_masks) = match kind {
-            MaskBinary::And => (&vector_op::AND, &vector_op::MASK_AND),
-            MaskBinary::Or => (&vector_op::OR, &vector_op::MASK_OR),
-            MaskBinary::Xor => (&vector_op::XOR, &vector_op::MASK_XOR),
-            MaskBinary::AndNot => (&vector_op::AND_NOT, &vector_op::MASK_NOT_AND),
+            MaskBinary::And => (&vector_op::AND_F, &vector_op::MASK_AND),
+            MaskBinary::Or => (&vector_op::OR_F, &vector_op::MASK_OR),
+            MaskBinary::Xor => (&vector_op::XOR_F, &vector_op::MASK_XOR),
+            MaskBinary::AndNot => (&vector_op::AND_NOT_F, &vector_op::MASK_NOT_AND),
         };
         // The instructions negate their first operand.
         let [a, b] = if kind == MaskBinary::AndNot {
@@ -122,14 +123,14 @@ impl Selector<'_> {
 
     pub(super) fn mask_or(&mut self, a: VReg, b: VReg) -> VReg {
         match self.isa {
-            Isa::Avx2 => self.two(&vector_op::OR, a, Source::Register(b)),
+            Isa::Avx2 => self.two(&vector_op::OR_F, a, Source::Register(b)),
             Isa::Avx512 => self.on_masks(&vector_op::MASK_OR, Some(a), b),
         }
     }
 
     pub(super) fn mask_and(&mut self, a: VReg, b: VReg) -> VReg {
         match self.isa {
-            Isa::Avx2 => self.two(&vector_op::AND, a, Source::Register(b)),
+            Isa::Avx2 => self.two(&vector_op::AND_F, a, Source::Register(b)),
             Isa::Avx512 => self.on_masks(&vector_op::MASK_AND, Some(a), b),
         }
     }

@@ -6,7 +6,7 @@
 
 use estampe_ir::interface::Input;
 use estampe_ir::lanes::{Kernel, Terminator};
-use estampe_ir::op::{Memory, TextureQuery, Unary};
+use estampe_ir::op::{Binary, Memory, TextureQuery, Unary};
 use estampe_ir::{Op, Value};
 
 /// The blocks and values of a kernel.
@@ -33,6 +33,8 @@ pub(crate) struct Plan {
     constants: Vec<Option<u32>>,
     /// Values that are square roots.
     is_root: Vec<bool>,
+    /// Values that operations of floats gave.
+    is_float: Vec<bool>,
 }
 
 impl Plan {
@@ -51,6 +53,7 @@ impl Plan {
             has_whole_quads: vec![false; values],
             constants: vec![None; values],
             is_root: vec![false; values],
+            is_float: vec![false; values],
         };
         plan.reach(kernel);
         plan.roots(kernel);
@@ -121,6 +124,11 @@ impl Plan {
         self.is_root[value.index()]
     }
 
+    /// True if an operation of floats gave a value.
+    pub(crate) fn is_float(&self, value: Value) -> bool {
+        self.is_float[value.index()]
+    }
+
     /// Parameters are roots whose arguments all are.
     fn roots(&mut self, kernel: &Kernel) {
         for block in &kernel.blocks {
@@ -128,6 +136,9 @@ impl Plan {
                 self.is_root[parameter.index()] = true;
             }
             for (op, value) in &block.ops {
+                if gives_float(op) {
+                    self.is_float[value.index()] = true;
+                }
                 if matches!(op, Op::Unary(Unary::FSqrt, _)) {
                     self.is_root[value.index()] = true;
                 }
@@ -276,6 +287,28 @@ impl Plan {
                 open.append(&mut next[value.index()]);
             }
         }
+    }
+}
+
+/// True if the units for floats compute an operation.
+fn gives_float(op: &Op) -> bool {
+    match op {
+        Op::Fma(_) => true,
+        Op::Unary(kind, _) => matches!(
+            kind,
+            Unary::FNeg
+                | Unary::FAbs
+                | Unary::FSqrt
+                | Unary::FRound
+                | Unary::FFloor
+                | Unary::FCeil
+                | Unary::FTrunc
+        ),
+        Op::Binary(kind, _) => matches!(
+            kind,
+            Binary::FAdd | Binary::FSub | Binary::FMul | Binary::FDiv | Binary::FMin | Binary::FMax
+        ),
+        _ => false,
     }
 }
 

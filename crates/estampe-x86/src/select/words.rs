@@ -22,8 +22,8 @@ impl Selector<'_> {
     /// An operation of one word; `None` if it is served by a call.
     pub(super) fn unary(&mut self, kind: Unary, a: Value, half: usize) -> Option<VReg> {
         let result = match kind {
-            Unary::FNeg => self.with_constant(&vector_op::XOR, (a, half), SIGN),
-            Unary::FAbs => self.with_constant(&vector_op::AND, (a, half), !SIGN),
+            Unary::FNeg => self.with_constant(self.logic_of_floats(Binary::Xor), (a, half), SIGN),
+            Unary::FAbs => self.with_constant(self.logic_of_floats(Binary::And), (a, half), !SIGN),
             Unary::Not => self.with_constant(&vector_op::XOR, (a, half), u32::MAX),
             Unary::FSqrt => {
                 let a = self.word(a, half);
@@ -69,6 +69,19 @@ impl Selector<'_> {
             _ => return None,
         };
         Some(result)
+    }
+
+    /// An operation on the bits of floats. Zen 3 takes a cycle to hand a result from the units for
+    /// floats to those for integers, and another one back.
+    fn logic_of_floats(&self, kind: Binary) -> &'static VectorOp {
+        match (self.isa, kind) {
+            (Isa::Avx2, Binary::And) => &vector_op::AND_F,
+            (Isa::Avx2, Binary::Or) => &vector_op::OR_F,
+            (Isa::Avx2, _) => &vector_op::XOR_F,
+            (Isa::Avx512, Binary::And) => &vector_op::AND,
+            (Isa::Avx512, Binary::Or) => &vector_op::OR,
+            (Isa::Avx512, _) => &vector_op::XOR,
+        }
     }
 
     fn with_constant(
@@ -175,6 +188,11 @@ impl Selector<'_> {
             Binary::Add => (&vector_op::ADD, true),
             Binary::Sub => (&vector_op::SUB, false),
             Binary::Mul => (&vector_op::MUL, true),
+            Binary::And | Binary::Or | Binary::Xor
+                if [a, b].iter().any(|value| self.plan.is_float(*value)) =>
+            {
+                (self.logic_of_floats(kind), true)
+            }
             Binary::And => (&vector_op::AND, true),
             Binary::Or => (&vector_op::OR, true),
             Binary::Xor => (&vector_op::XOR, true),
