@@ -113,8 +113,7 @@ impl LinePacket {
                 (&mut self.iw[end], &packet.iw[end]),
             ] {
                 let values = s.permute_f32(f32x16::load_array_ref(s, of), from);
-                let kept = f32x16::load_array_ref(s, to);
-                is_set.select(values, kept).store_array(to);
+                s.replace_f32(to, lanes, values);
             }
             set_vertices(s, &mut self.vertex[end], &packet.vertex[end], (lanes, from));
         }

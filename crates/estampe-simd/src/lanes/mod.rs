@@ -194,6 +194,33 @@ pub trait Lanes: Simd {
         self.permute(values, packing.order).store_array(out);
     }
 
+    /// Replaces some lanes of sixteen values.
+    #[inline(always)]
+    fn replace(self, to: &mut [u32; 16], lanes: u16, by: u32x16<Self>) {
+        self.replace_masked(to, self.mask_from_bits(lanes), by);
+    }
+
+    /// [`replace`](Self::replace) of floats.
+    #[inline(always)]
+    fn replace_f32(self, to: &mut [f32; 16], lanes: u16, by: f32x16<Self>) {
+        let to = crate::gather::bits_of_sixteen(to);
+        self.replace(to, lanes, fearless_simd::Bytes::bitcast(by));
+    }
+
+    /// [`replace`](Self::replace) of the lanes of a mask.
+    #[inline(always)]
+    fn replace_masked(self, to: &mut [u32; 16], lanes: mask32x16<Self>, by: u32x16<Self>) {
+        let before = u32x16::load_array_ref(self, to);
+        lanes.select(by, before).store_array(to);
+    }
+
+    /// [`replace_masked`](Self::replace_masked) of floats.
+    #[inline(always)]
+    fn replace_masked_f32(self, to: &mut [f32; 16], lanes: mask32x16<Self>, by: f32x16<Self>) {
+        let to = crate::gather::bits_of_sixteen(to);
+        self.replace_masked(to, lanes, fearless_simd::Bytes::bitcast(by));
+    }
+
     /// [`Window::new`].
     #[doc(hidden)]
     #[inline(always)]

@@ -200,6 +200,10 @@ impl Lanes for Avx2 {
         crate::packing::store_packed_avx2(self, values, packing, out);
     }
     #[inline(always)]
+    fn replace_masked(self, to: &mut [u32; 16], lanes: mask32x16<Self>, by: u32x16<Self>) {
+        crate::masks::replace_masked_avx2(self, to, lanes, by);
+    }
+    #[inline(always)]
     fn window(self, order: u32x16<Self>) -> Option<Window<Self>> {
         crate::packing::window_avx2(self, order)
     }

@@ -238,6 +238,44 @@ fn lanes_are_packed_in_their_order() {
 }
 
 #[inline(always)]
+fn replaced<S: Lanes>(s: S, lanes: u16, old: [u32; LANES], new: [u32; LANES]) -> [[u32; LANES]; 4] {
+    let (mut by_bits, mut by_mask) = (old, old);
+    let (mut floats_by_bits, mut floats_by_mask) =
+        (old.map(f32::from_bits), old.map(f32::from_bits));
+    let (new, mask) = (u32x16::load_array(s, new), s.mask_from_bits(lanes));
+    s.replace(&mut by_bits, lanes, new);
+    s.replace_masked(&mut by_mask, mask, new);
+    s.replace_f32(&mut floats_by_bits, lanes, new.bitcast());
+    s.replace_masked_f32(&mut floats_by_mask, mask, new.bitcast());
+    [
+        by_bits,
+        by_mask,
+        floats_by_bits.map(f32::to_bits),
+        floats_by_mask.map(f32::to_bits),
+    ]
+}
+
+#[test]
+fn the_lanes_of_a_mask_are_replaced() {
+    let (mut old, mut new) = ([0; LANES], [0; LANES]);
+    for (lane, (old, new)) in (1u32..).zip(old.iter_mut().zip(&mut new)) {
+        (*old, *new) = (lane * 0x0123_4567, lane * 0x0765_4321);
+    }
+    for level in Level::all_available() {
+        for lanes in (0..=u16::MAX).step_by(13).chain([u16::MAX]) {
+            let mut expected = old;
+            for (lane, expected) in expected.iter_mut().enumerate() {
+                if lanes >> lane & 1 == 1 {
+                    *expected = new[lane];
+                }
+            }
+            let found = dispatch!(level, s => replaced(s, lanes, old, new));
+            assert_eq!(found, [expected; 4], "{lanes:#x} at {}", level.name());
+        }
+    }
+}
+
+#[inline(always)]
 fn round_trip<S: Lanes>(s: S, bits: u16) -> u16 {
     let signs = s.sign_bits(signs(s, bits));
     let bits = s.bits_of_mask(s.mask_from_bits(bits));

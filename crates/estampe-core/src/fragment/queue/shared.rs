@@ -7,7 +7,7 @@
 use super::FragmentQueue;
 use crate::fragment::place::Place;
 use crate::pipeline::RenderPipeline;
-use estampe_simd::{LANES, Lanes, Level, Packet, Select, SimdBase, f32x16};
+use estampe_simd::{LANES, Lanes, Level, Packet, f32x16};
 use estampe_types::Bindings;
 
 impl<const N: usize> FragmentQueue<N> {
@@ -78,7 +78,5 @@ impl<const N: usize> FragmentQueue<N> {
 /// Replaces some lanes of a packet.
 #[inline(always)]
 pub(crate) fn replace<S: Lanes>(s: S, packet: &mut Packet<f32>, lanes: u16, by: f32x16<S>) {
-    let before = f32x16::load_array_ref(s, &packet.0);
-    let after = s.mask_from_bits(lanes).select(by, before);
-    after.store_array(&mut packet.0);
+    s.replace_f32(&mut packet.0, lanes, by);
 }

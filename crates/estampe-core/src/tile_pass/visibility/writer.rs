@@ -16,7 +16,7 @@ use crate::per_sample::stencil::FaceLanes;
 use crate::raster::{Covered, MAX_PACKETS, SampleSet, TileShape, packet_origin};
 use crate::tile_pass::TileJob;
 use estampe_simd::{
-    Bytes, LANES, Lanes, Level, Select, SimdBase, dispatch, f32x16, i32x16, mask32x16, u32x16,
+    Bytes, LANES, Lanes, Level, SimdBase, dispatch, f32x16, i32x16, mask32x16, u32x16,
 };
 use estampe_types::state::CompareFunction;
 
@@ -289,7 +289,7 @@ impl<'a, const N: usize> VisibilityWriter<'a, N> {
             (test_kind::LESS, _, Some(stored)) => {
                 let old = f32x16::load_array_ref(s, stored);
                 let passes = s.mask_from_bits(lanes) & new.simd_lt(old);
-                passes.select(new, old).store_array(stored);
+                s.replace_masked_f32(stored, passes, new);
                 passes
             }
             (test_kind::ANY_ORDER, Some(state), Some(stored)) => {
@@ -299,7 +299,7 @@ impl<'a, const N: usize> VisibilityWriter<'a, N> {
                 let wins = nearer_or_first(s, state.compare, [new, old], ids, triangle.id);
                 let passes = s.mask_from_bits(lanes) & wins;
                 if state.write_enabled {
-                    passes.select(new, old).store_array(stored);
+                    s.replace_masked_f32(stored, passes, new);
                 }
                 passes
             }
@@ -316,9 +316,8 @@ impl<'a, const N: usize> VisibilityWriter<'a, N> {
             }
         };
         if let Some(ids) = self.ids.get_mut(line) {
-            let old = u32x16::load_array_ref(s, ids);
             let id = <u32x16<S> as SimdBase<S>>::splat(s, triangle.id);
-            passes.select(id, old).store_array(ids);
+            s.replace_masked(ids, passes, id);
             *unresolved |= s.bits_of_mask(passes);
         }
     }
