@@ -273,8 +273,8 @@ pub trait Lanes: Simd {
         None
     }
 
-    /// The nearest half floats of two numbers, in the low and the high half of each lane, if there is
-    /// a shorter way than [one after the other](Self::encode_half). Of each NaN the one that is
+    /// The nearest half floats of two numbers, in the low and the high half of each lane, if there
+    /// is a shorter way than [one after the other](Self::encode_half). Of each NaN the one that is
     /// positive, quiet and else zero: 0x7E00.
     #[inline(always)]
     fn encode_half_pair(self, low_and_high: [f32x16<Self>; 2]) -> Option<u32x16<Self>> {
