@@ -66,6 +66,7 @@ const SPEAKS_OF_WORDS: &[&str] = &["GLOSSARY.md", "STYLE.md", "xtask/src/words.r
 /// Checks sources and documents for banned words.
 #[must_use]
 pub fn check_words(repository: &Repository) -> Vec<Finding> {
+    let banned: Vec<_> = BANNED.iter().map(Banned::new).collect();
     let mut findings = Vec::new();
     for file in repository.files() {
         if SPEAKS_OF_WORDS
@@ -75,32 +76,54 @@ pub fn check_words(repository: &Repository) -> Vec<Finding> {
             continue;
         }
         for (index, line) in file.text.lines().enumerate() {
-            for (word, case, instead) in BANNED {
-                if contains(line, word, *case) {
-                    let message = format!("\"{word}\": write {instead}");
-                    findings.push(Finding::error(&file.path, index + 1, message));
-                }
+            let squeezed = squeezed(line);
+            for banned in banned.iter().filter(|word| word.is_in(line, &squeezed)) {
+                let Banned { word, instead, .. } = banned;
+                let message = format!("\"{word}\": write {instead}");
+                findings.push(Finding::error(&file.path, index + 1, message));
             }
         }
     }
     findings
 }
 
-fn contains(line: &str, word: &str, case: Case) -> bool {
-    match case {
-        Case::Any => squeezed(line).contains(&squeezed(word)),
-        Case::Exact => line.match_indices(word).any(|(at, _)| {
-            !ends_in_word(&line[..at]) && !starts_with_word(&line[at + word.len()..])
-        }),
+/// A row of [`BANNED`].
+struct Banned {
+    word: &'static str,
+    case: Case,
+    instead: &'static str,
+    /// The word as [`squeezed`] text.
+    squeezed: String,
+}
+
+impl Banned {
+    fn new(&(word, case, instead): &(&'static str, Case, &'static str)) -> Self {
+        let squeezed = squeezed(word);
+        Self {
+            word,
+            case,
+            instead,
+            squeezed,
+        }
+    }
+
+    /// True if a line has the word. Its squeezed text is made once for all words.
+    fn is_in(&self, line: &str, squeezed: &str) -> bool {
+        match self.case {
+            Case::Any => squeezed.contains(&self.squeezed),
+            Case::Exact => line.match_indices(self.word).any(|(at, word)| {
+                !ends_in_word(&line[..at]) && !starts_with_word(&line[at + word.len()..])
+            }),
+        }
     }
 }
 
-/// Lower case, without what may stand between the parts of a word.
+/// Lower case, without what may stand between the parts of a word. The banned words have no letters
+/// beyond ASCII.
 fn squeezed(text: &str) -> String {
-    text.chars()
-        .filter(|c| !matches!(c, ' ' | '-' | '_'))
-        .flat_map(char::to_lowercase)
-        .collect()
+    let mut squeezed = text.replace([' ', '-', '_'], "");
+    squeezed.make_ascii_lowercase();
+    squeezed
 }
 
 fn ends_in_word(text: &str) -> bool {
@@ -114,6 +137,10 @@ fn starts_with_word(text: &str) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    fn contains(line: &str, word: &'static str, case: Case) -> bool {
+        Banned::new(&(word, case, "")).is_in(line, &squeezed(line))
+    }
 
     #[test]
     fn every_spelling_is_found() {

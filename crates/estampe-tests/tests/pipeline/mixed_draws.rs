@@ -5,6 +5,7 @@
 use estampe::TilePath;
 use estampe_tests::geometry::Style;
 use estampe_tests::mixed_draws::Mixture;
+use estampe_tests::shaders::{AtCentroid, Shown};
 use estampe_tests::{ExpectedPaths, check, check_paths};
 use estampe_types::TextureFormat as F;
 use estampe_types::state::{ColorWrites, DepthState};
@@ -194,10 +195,17 @@ fn every_path_with_colours_in_one_pass() {
     ]);
     check_paths("mixed/every path", 60, paths, |random| {
         let samples = random.pick(&[1, 1, 4]);
-        Mixture {
+        let mixture = Mixture {
             draws: 9,
             ..Mixture::new(&[F::Rgba8Unorm], Some(F::Depth32Float), samples)
+        };
+        let mut case = mixture.case(random);
+        // Fragments whose varyings are at centroids share no packets.
+        for draw in &mut case.draws {
+            if random.once_in(6) {
+                draw.shader = AtCentroid(Shown::random(random)).into();
+            }
         }
-        .case(random)
+        case
     });
 }

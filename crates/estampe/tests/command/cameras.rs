@@ -1,7 +1,7 @@
 //! `estampe render --cameras`: pinhole cameras of data sets.
 
 use super::passes::{channels, floats};
-use crate::support::{Folder, estampe};
+use crate::support::{Folder, estampe, machines};
 use exr::prelude::FlatSamples;
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
@@ -129,7 +129,7 @@ fn cameras_do_not_depend_on_threads_or_simd_level() {
     }]);
     let file = folder.with_file("c.json", camera.to_string());
     let mut first = None;
-    for how in ["--threads 1", "--threads 3", "--simd scalar", "--threads 7"] {
+    for how in machines() {
         let out = folder.path("{camera}.png");
         let words = format!("builtin:teapot --size 40x30 --cameras {{}} -o {{}} --shadow {how}");
         report(&words, &[&file, &out]);

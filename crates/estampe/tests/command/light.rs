@@ -2,7 +2,7 @@
 
 use super::passes::{channels, floats};
 use crate::support::picture::Picture;
-use crate::support::{Folder, estampe};
+use crate::support::{Folder, estampe, machines};
 use estampe_assets::Limits;
 use estampe_assets::image::decode_hdr;
 use estampe_scene::HdrImage;
@@ -161,7 +161,7 @@ fn light_does_not_depend_on_threads_or_simd_level() {
     for method in ["sorted", "exact", "weighted"] {
         for name in ["l.exr", "l.hdr"] {
             let mut first = None;
-            for how in ["--threads 1", "--threads 7", "--simd scalar", "--simd sse2"] {
+            for how in machines() {
                 let out = folder.path(name);
                 let words = format!("render {{}} -o {{}} {how} --transparency {method}");
                 draw(&words, &[&lamp, &out]);

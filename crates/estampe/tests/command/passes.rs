@@ -1,7 +1,7 @@
 //! Data passes of `estampe render`.
 
 use crate::support::picture::Picture;
-use crate::support::{Folder, estampe};
+use crate::support::{Folder, estampe, machines};
 use exr::prelude::{FlatSamples, ReadChannels, ReadLayers};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
@@ -220,7 +220,7 @@ fn passes_that_cannot_be_written_are_errors() {
 fn passes_do_not_depend_on_threads_or_simd_level() {
     let folder = Folder::new();
     let mut first = None;
-    for how in ["--threads 1", "--threads 3", "--simd scalar"] {
+    for how in machines() {
         let out = folder.path("t.exr");
         let words = format!(
             "render builtin:teapot --size 40x30 -q -o {{}} {how} --pass color,normal,depth,position"

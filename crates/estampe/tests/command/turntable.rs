@@ -2,7 +2,7 @@
 
 use super::gltf::with_choices;
 use crate::support::picture::Picture;
-use crate::support::{Folder, estampe};
+use crate::support::{Folder, estampe, machines};
 use gif::{ColorOutput, DecodeOptions};
 use serde_json::{Value, json};
 use std::io::Cursor;
@@ -144,7 +144,7 @@ fn animations_do_not_depend_on_threads_or_simd_level() {
     let folder = Folder::new();
     for name in ["t.gif", "t.webp"] {
         let mut first = None;
-        for how in ["--threads 1", "--threads 3", "--simd scalar"] {
+        for how in machines() {
             let words = format!("turntable builtin:torus --size 40x30 --frames 4 -o {{}} -q {how}");
             let run = estampe(&words, &[&folder.path(name)]);
             assert_eq!(run.code, 0, "{how}: {}", run.err);

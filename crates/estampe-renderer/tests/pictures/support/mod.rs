@@ -10,7 +10,8 @@ pub(crate) static DEVICES: LazyLock<Vec<Device>> = LazyLock::new(|| {
     let levels = Level::all_available();
     let threads = [1, 3].into_iter().cycle();
     let mut kinds: Vec<_> = levels.iter().copied().zip(threads).collect();
-    kinds.extend([1, 3].map(|threads| (Level::best(), threads)));
+    let of_best = [1, 3].map(|threads| (Level::best(), threads));
+    kinds.extend(of_best.into_iter().find(|kind| !kinds.contains(kind)));
     let device = |(level, threads)| {
         let descriptor = DeviceDescriptor {
             level,

@@ -4,6 +4,7 @@ pub(crate) mod page;
 pub(crate) mod picture;
 pub(crate) mod shell;
 
+use estampe::Level;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
@@ -78,6 +79,19 @@ impl From<Output> for Run {
             err: String::from_utf8_lossy(&output.stderr).into_owned(),
         }
     }
+}
+
+/// Options for every SIMD level that the command has, by 1, 2 and 7 threads in turn, and for 3
+/// threads at the best level.
+pub(crate) fn machines() -> Vec<String> {
+    let levels = Level::all_available().into_iter();
+    let of_levels = levels.zip([1, 2, 7].into_iter().cycle());
+    let mut machines = vec!["--threads 3".to_owned()];
+    machines.extend(of_levels.map(|(level, threads)| {
+        let name = level.name();
+        format!("--threads {threads} --simd {name}")
+    }));
+    machines
 }
 
 /// Runs the command with these words as its arguments; `{}` stands for the path.
