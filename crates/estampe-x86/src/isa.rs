@@ -65,6 +65,14 @@ impl Isa {
     }
 }
 
+#[cfg(target_arch = "x86_64")]
+impl Isa {
+    /// The registers of a packet of words.
+    pub(crate) fn registers_of_packet(self) -> usize {
+        LANES / self.lanes()
+    }
+}
+
 /// How much time is spent on making code.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Tier {

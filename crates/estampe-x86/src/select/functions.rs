@@ -6,7 +6,6 @@ use super::{Place, Selector, calls};
 use crate::machine::{Function, Instruction};
 use crate::{CompileError, Isa, Tier};
 use estampe_ir::lanes::{BlockId, Jump, Terminator};
-use estampe_ir::op::Unary;
 use estampe_ir::{Op, Value};
 use regalloc2::{Block, Operand};
 
@@ -93,14 +92,14 @@ impl Selector<'_> {
                     self.find_uniform_loads(at);
                     let ops = schedules[at].iter().map(|&index| &of_kernel.ops[index]);
                     let ops: Vec<&(Op, Value)> = ops.collect();
-                    let by_halves = self.computes_by_halves(at);
+                    let in_stages = self.computes_in_stages(at);
                     let mut left = &ops[..];
                     while let Some(&(op, first)) = left.first() {
-                        let count = if by_halves { self.apart(left) } else { 0 };
+                        let count = if in_stages { self.apart(left) } else { 0 };
                         if count > 0 {
                             let (apart, others) = left.split_at(count);
                             left = others;
-                            self.by_halves(apart)?;
+                            self.in_stages(apart)?;
                             continue;
                         }
                         let count = calls::joined(&self.plan, left);
@@ -154,60 +153,18 @@ impl Selector<'_> {
         ))
     }
 
-    /// True if a block computes all of one packet of a pass before the other one.
-    ///
-    /// Where iterations wait for each other, one packet is then at the end of an iteration, which
-    /// is often a single chain, while the other one is in the middle, and each has all registers
-    /// for itself. Elsewhere operations of both packets alternate.
-    fn computes_by_halves(&self, at: usize) -> bool {
-        self.isa == Isa::Avx512 && self.halves > 1 && super::is_in_loop(self.kernel, at)
-    }
-
-    /// The number of operations, from the first on, that each half does by itself or both share.
-    fn apart(&self, ops: &[&(Op, Value)]) -> usize {
-        let is_apart = |(op, first): &&&(Op, Value)| match op {
-            Op::Unary(kind, _) => *kind != Unary::ReverseBits,
-            Op::Binary(..)
-            | Op::Fma(_)
-            | Op::Select { .. }
-            | Op::Derivative { .. }
-            | Op::QuadLane { .. }
-            | Op::Compare(..)
-            | Op::MaskNot(_)
-            | Op::MaskBinary(..)
-            | Op::QuadAny(_) => true,
-            Op::LoadBuffer { .. } => self.plan.is_splat(*first),
-            _ => false,
-        };
-        ops.iter().take_while(is_apart).count()
-    }
-
-    /// Operations of one half after the other.
-    fn by_halves(&mut self, ops: &[&(Op, Value)]) -> Result<(), CompileError> {
-        for half in 0..self.halves {
-            for (op, first) in ops {
-                if self.plan.is_splat(*first) {
-                    if half == 0 {
-                        self.operation(op, *first)?;
-                    }
-                } else {
-                    let register = self.half_of(op, half).ok_or(CompileError::Unknown)?;
-                    self.define(*first, half, register);
-                }
-            }
-        }
-        Ok(())
-    }
-
     /// The order of the operations of each block that is reached, without those that are hoisted
     /// and those that nothing needs.
     fn schedules(&self, tier: Tier) -> Vec<Vec<usize>> {
         let mut scheduler = Scheduler::new(self.kernel, &self.plan, self.isa, self.halves);
         let blocks = 0..self.kernel.blocks.len();
+        let has_pair = self.packets_of_pass().len() > 1;
         let of_block = |at: usize| match tier {
             _ if !self.plan.is_reached[at] => Vec::new(),
             // Fewer registers need fewer spills, of which the fast allocator makes many.
             Tier::Fast if self.isa == Isa::Avx2 => scheduler.as_written(at),
+            // Stages need few registers.
+            _ if self.isa == Isa::Avx2 && has_pair => scheduler.as_written(at),
             _ if self.in_order.contains(&at) => scheduler.as_written(at),
             _ => scheduler.by_latency(at),
         };

@@ -14,20 +14,26 @@ use regalloc2::{Operand, VReg};
 impl Selector<'_> {
     /// The displacement of a half in a packet of words.
     pub(super) fn half_words(&self, half: usize) -> i32 {
-        match (self.isa, half) {
-            (Isa::Avx2, 1) => displacement(PACKET / 2),
-            _ => 0,
+        if self.is_upper(half) {
+            displacement(PACKET / 2)
+        } else {
+            0
         }
     }
 
     /// The displacement of a half in the 16 bits of a mask.
     fn half_mask(&self, half: usize) -> i32 {
-        i32::from(self.isa == Isa::Avx2 && half == 1)
+        i32::from(self.is_upper(half))
+    }
+
+    /// True if a half has the upper lanes of a packet alone.
+    fn is_upper(&self, half: usize) -> bool {
+        half % self.isa.registers_of_packet() == 1
     }
 
     /// The packet of the pass to which a half belongs.
     fn packet_of(&self, half: usize) -> u32 {
-        u32::from(self.isa == Isa::Avx512 && half == 1)
+        u32::from(half >= self.isa.registers_of_packet())
     }
 
     /// An input that is not the same in all lanes.

@@ -1,17 +1,21 @@
 //! Instruction selection: from a kernel to machine instructions with virtual registers.
 //!
-//! A pass runs sixteen lanes, or 32. A value is in one register, or in two, its *halves*:
+//! A pass runs sixteen lanes, or 32. A value is in one register, or in two or four, its *halves*:
 //!
 //! | instruction set | kernel | lanes of a pass | registers of a value |
 //! |---|---|---|---|
 //! | AVX2 | all | 16: a packet | 2 |
+//! | AVX2, optimised | with long loops: a second function | 32: two packets | 4 |
 //! | AVX-512 | all | 16: a packet | 1 |
 //! | AVX-512, optimised | most: a second function | 32: two packets | 2 |
 //!
 //! Most shaders are one long chain of operations, each of which waits for the one before: the
 //! halves, which are independent, fill the time. Lit fragments, ns each, with one register and with
 //! two: AVX2 13.1 and 9.7, AVX-512 8.8 and 7.05, though they spill more; traced rays, which loop,
-//! at 720p with AVX-512: 122 ms and 87. Branches are taken if a lane of either packet asks for it.
+//! at 720p with AVX-512: 122 ms and 87. AVX2 has too few registers for that: there two packets take
+//! turns ([`stages`]), and only in kernels with a long loop and without textures. WGSL's `heavy_fs`
+//! takes 0.905 of its time on Zen 3 so, but a loop of few operations, which one packet runs
+//! without memory, 1.3 times as long. Branches are taken if a lane of either packet asks for it.
 //! Calls serve one packet after the other. Kernels with several effects on memory, or arrays, or
 //! barriers, run single packets; so does the last packet of an odd number.
 //!
@@ -26,6 +30,7 @@
 //! | [`overlap`] | nothing: pipelines loops |
 //! | [`strides`] | nothing: finds what grows by the same number from lane to lane |
 //! | [`schedule`] | nothing: orders the operations of a block |
+//! | [`stages`] | runs of operations of one packet of a pass after the other |
 //! | [`functions`] | blocks, edges, jumps and branches |
 //! | [`operands`] | loads of values that are in memory; the instructions' forms |
 //! | [`words`] | operations on words |
@@ -53,6 +58,7 @@ mod plan;
 mod quadruples;
 mod schedule;
 pub(crate) mod small_angles;
+mod stages;
 mod strides;
 mod uniform_loads;
 mod words;
@@ -92,12 +98,15 @@ pub(crate) struct Selected {
     pub(crate) fixed_words: Vec<u32>,
 }
 
+/// The most registers of a value.
+const MOST_HALVES: usize = 4;
+
 /// Where a value is.
 #[derive(Debug, Clone, Copy)]
 enum Place {
     /// Not computed yet.
     Nowhere,
-    Registers([VReg; 2]),
+    Registers([VReg; MOST_HALVES]),
     /// A value of the table.
     Table(u32),
     Constant(u32),
@@ -149,11 +158,15 @@ pub(crate) fn select(
     assembler: &mut Assembler,
 ) -> Result<Selected, CompileError> {
     let plan = Plan::new(kernel);
-    let may_pair = (isa, tier) == (Isa::Avx512, Tier::Optimised);
+    let is_worth_it = match isa {
+        Isa::Avx2 => stages::has_long_loop(kernel, &plan),
+        Isa::Avx512 => true,
+    };
+    let may_pair = tier == Tier::Optimised && is_worth_it;
     let has_pair = may_pair && !kernel.runs_workgroups() && can_pair(kernel, &plan);
     let packets_of_pass = if has_pair { 2 } else { 1 };
     // Two packets of a pass overlap as they are.
-    let may_overlap = may_pair && !has_pair;
+    let may_overlap = (isa, tier) == (Isa::Avx512, Tier::Optimised) && !has_pair;
     let overlapped = may_overlap.then(|| overlap(kernel, &plan)).flatten();
     let (kernel, plan, in_order) = match &overlapped {
         Some(overlapped) => {
@@ -201,10 +214,10 @@ pub(crate) fn select(
     };
     selector.count_uses();
     let prepare = selector.prepare()?;
-    selector.halves = estampe_simd::LANES / isa.lanes();
+    selector.halves = isa.registers_of_packet();
     let packet = selector.packet(tier)?;
     let pair = if has_pair {
-        selector.halves = 2;
+        selector.halves *= 2;
         Some(selector.packet(tier)?)
     } else {
         None
@@ -340,22 +353,21 @@ impl Selector<'_> {
         }
     }
 
-    fn new_registers(&mut self, value: Value) -> [VReg; 2] {
+    fn new_registers(&mut self, value: Value) -> [VReg; MOST_HALVES] {
         let class = self.class_of(value);
-        let first = self.function.register(class);
-        let second = match self.register_count(value) {
-            1 => first,
-            _ => self.function.register(class),
-        };
-        self.places[value.index()] = Place::Registers([first, second]);
-        [first, second]
+        let mut registers = [self.function.register(class); MOST_HALVES];
+        for other in &mut registers[1..self.register_count(value)] {
+            *other = self.function.register(class);
+        }
+        self.places[value.index()] = Place::Registers(registers);
+        registers
     }
 
     /// Says in which register a half of a value is.
     fn define(&mut self, value: Value, half: usize, register: VReg) {
         let mut registers = match self.places[value.index()] {
             Place::Registers(registers) if half > 0 => registers,
-            _ => [VReg::invalid(); 2],
+            _ => [VReg::invalid(); MOST_HALVES],
         };
         registers[half] = register;
         self.places[value.index()] = Place::Registers(registers);
@@ -363,10 +375,7 @@ impl Selector<'_> {
 
     /// The halves of each packet of a pass.
     fn packets_of_pass(&self) -> Vec<Range<usize>> {
-        let of_packet = match self.isa {
-            Isa::Avx2 => self.halves,
-            Isa::Avx512 => 1,
-        };
+        let of_packet = self.halves.min(self.isa.registers_of_packet());
         let firsts = (0..self.halves).step_by(of_packet);
         firsts.map(|first| first..first + of_packet).collect()
     }

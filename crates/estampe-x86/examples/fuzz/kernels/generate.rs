@@ -23,6 +23,9 @@ pub(super) const ARRAYS: u32 = 3;
 /// The words of the memory of work-groups, where there is some.
 const WORKGROUP_WORDS: u32 = 24;
 
+/// The operations of loops that are long, of which a pass may run two packets with AVX2, too.
+const LONG_LOOP: usize = 60;
+
 pub(super) struct Generator<'a> {
     pub(super) random: &'a mut Rng,
     pub(super) builder: Builder,
@@ -264,6 +267,11 @@ impl Generator<'_> {
         self.builder.end_if();
         self.labels
             .push((again.label, Target::Loop(counter, of_loop)));
+        if self.is_free && self.random.bool() {
+            for _ in 0..LONG_LOOP {
+                self.operation();
+            }
+        }
         self.statements();
         if !self.builder.has_ended() && self.random.u32(0..5) != 0 {
             self.branch_to(self.labels.len() - 1);

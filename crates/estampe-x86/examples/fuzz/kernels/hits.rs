@@ -9,13 +9,18 @@ use estampe_ir::op::{
 use estampe_x86::{Code, Isa};
 use std::collections::BTreeMap;
 
-/// Kinds of kernels of which a pass runs two packets.
-const PAIRS: [&str; 4] = [
-    "pairs",
-    "pairs that loop",
-    "pairs with an effect",
-    "pairs with textures",
+/// Kinds of kernels of which a pass runs two packets. With AVX2 all of them loop.
+const PAIRS: [(Isa, &str); 5] = [
+    (Isa::Avx512, "pairs"),
+    (Isa::Avx512, "pairs that loop"),
+    (Isa::Avx512, "pairs with an effect"),
+    (Isa::Avx512, "pairs with textures"),
+    (Isa::Avx2, "pairs that loop"),
 ];
+
+fn pairs_of(isa: Isa, name: &str) -> String {
+    format!("{} {name}", isa.name())
+}
 
 /// How often each operation occurred.
 #[derive(Debug, Default)]
@@ -57,18 +62,21 @@ impl Hits {
         let ops = || kernel.blocks.iter().flat_map(|block| &block.ops);
         let has_effect = ops().any(|(op, _)| op.has_effect());
         let has_texture = ops().any(|(op, _)| matches!(op, Op::Texture(_)));
-        for (name, occurs) in PAIRS
-            .into_iter()
-            .zip([true, has_loop, has_effect, has_texture])
-        {
-            *self.counts.entry(name.to_owned()).or_default() += u64::from(occurs);
+        for (isa, name) in PAIRS.into_iter().filter(|(isa, _)| *isa == code.isa()) {
+            let occurs = match name {
+                "pairs that loop" => has_loop,
+                "pairs with an effect" => has_effect,
+                "pairs with textures" => has_texture,
+                _ => true,
+            };
+            *self.counts.entry(pairs_of(isa, name)).or_default() += u64::from(occurs);
         }
     }
 
     /// What can be compiled and did not occur.
     pub(crate) fn missing(&self) -> Vec<String> {
-        let of_avx512 = PAIRS.map(str::to_owned).into_iter();
-        let all = of_avx512.filter(|_| Isa::Avx512.is_available());
+        let pairs = PAIRS.into_iter().filter(|(isa, _)| isa.is_available());
+        let all = pairs.map(|(isa, name)| pairs_of(isa, name));
         let all = all.chain(expected());
         let is_missing = |name: &String| self.counts.get(name).is_none_or(|&count| count == 0);
         all.filter(is_missing).collect()

@@ -1,0 +1,174 @@
+//! Stages: runs of operations that one packet of a pass computes before the other one does.
+//!
+//! With AVX2 two packets of a pass have four registers a value, and there are sixteen. A stage has
+//! them all for the two of one packet; what lives from a stage to the next is in memory. So blocks
+//! are cut where few values live, and their operations stay as they are written, in which few live
+//! at once. Stages are short: the processor must find those of both packets among the operations
+//! that it looks ahead.
+
+use super::plan::Plan;
+use super::{Selector, is_in_loop};
+use crate::{CompileError, Isa};
+use estampe_ir::lanes::Kernel;
+use estampe_ir::op::{Binary, Unary};
+use estampe_ir::{Op, Value};
+use std::collections::HashMap;
+
+/// The least operations of a stage, of which others follow, and the most.
+const LEAST: usize = 12;
+const MOST: usize = 24;
+
+/// Operations of a block of a loop from which two packets of a pass are worth what they spill: one
+/// iteration of a packet is more than the processor looks ahead.
+const LONG: usize = 64;
+
+/// True if a loop has a long block, and the kernel accesses no textures, whose calls spill all.
+pub(super) fn has_long_loop(kernel: &Kernel, plan: &Plan) -> bool {
+    let blocks = kernel.blocks.iter().enumerate();
+    let mut reached = blocks.filter(|(at, _)| plan.is_reached[*at]);
+    let is_long = |(op, first): &&(Op, Value)| {
+        plan.is_needed(op, *first) && (op.results().is_empty() || !plan.is_hoisted(*first))
+    };
+    let ops = || kernel.blocks.iter().flat_map(|block| &block.ops);
+    let has_textures = ops().any(|(op, _)| matches!(op, Op::Texture(_)));
+    !has_textures
+        && reached.any(|(at, block)| {
+            block.ops.iter().filter(is_long).count() >= LONG && is_in_loop(kernel, at)
+        })
+}
+
+impl Selector<'_> {
+    /// True if a block computes parts of one packet of a pass before those of the other one.
+    ///
+    /// Where iterations wait for each other, one packet is then at the end of an iteration, which
+    /// is often a single chain, while the other one is in the middle, and each has all registers
+    /// for itself. Elsewhere operations of both packets alternate where there are registers.
+    pub(super) fn computes_in_stages(&self, at: usize) -> bool {
+        let has_pair = self.packets_of_pass().len() > 1;
+        has_pair && (self.isa == Isa::Avx2 || is_in_loop(self.kernel, at))
+    }
+
+    /// The number of operations, from the first on, that each packet does by itself or both share.
+    pub(super) fn apart(&self, ops: &[&(Op, Value)]) -> usize {
+        let is_apart = |(op, first): &&&(Op, Value)| match op {
+            Op::Unary(kind, _) => *kind != Unary::ReverseBits,
+            // A call with AVX2.
+            Op::Binary(Binary::SDiv | Binary::SRem | Binary::UDiv | Binary::URem, _) => {
+                self.isa == Isa::Avx512
+            }
+            Op::Binary(..)
+            | Op::Fma(_)
+            | Op::Select { .. }
+            | Op::Derivative { .. }
+            | Op::QuadLane { .. }
+            | Op::Compare(..)
+            | Op::MaskNot(_)
+            | Op::MaskBinary(..)
+            | Op::QuadAny(_) => true,
+            Op::LoadBuffer { .. } => self.plan.is_splat(*first),
+            _ => false,
+        };
+        ops.iter().take_while(is_apart).count()
+    }
+
+    /// Operations of one packet of a pass after the other one: with AVX-512, where a value has one
+    /// register a packet, all of them; with AVX2 stage by stage.
+    pub(super) fn in_stages(&mut self, ops: &[&(Op, Value)]) -> Result<(), CompileError> {
+        match self.isa {
+            Isa::Avx512 => self.stage(ops),
+            Isa::Avx2 => stages(ops).into_iter().try_for_each(|ops| self.stage(ops)),
+        }
+    }
+
+    fn stage(&mut self, ops: &[&(Op, Value)]) -> Result<(), CompileError> {
+        for halves in self.packets_of_pass() {
+            for (op, first) in ops {
+                if self.plan.is_splat(*first) {
+                    if halves.start == 0 {
+                        self.operation(op, *first)?;
+                    }
+                    continue;
+                }
+                for half in halves.clone() {
+                    let register = self.half_of(op, half).ok_or(CompileError::Unknown)?;
+                    self.define(*first, half, register);
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Cuts operations where the fewest values live that one of them gives and a later one uses.
+fn stages<'o, 'b>(ops: &'o [&'b (Op, Value)]) -> Vec<&'o [&'b (Op, Value)]> {
+    let mut last_uses: HashMap<Value, usize> = HashMap::new();
+    for (at, (op, _)) in ops.iter().enumerate() {
+        op.each_operand(|value, _| {
+            last_uses.insert(value, at);
+        });
+    }
+    // The values that live before each operation: changes first, then their sums.
+    let mut live = vec![0_i32; ops.len() + 1];
+    for (at, (op, first)) in ops.iter().enumerate() {
+        for value in first.and_next(op.results().len()) {
+            if let Some(&last) = last_uses.get(&value).filter(|last| **last > at) {
+                live[at + 1] += 1;
+                live[last + 1] -= 1;
+            }
+        }
+    }
+    for at in 1..live.len() {
+        live[at] += live[at - 1];
+    }
+    let mut stages = Vec::new();
+    let mut start = 0;
+    while ops.len() - start > MOST {
+        let ends = start + LEAST..=start + MOST;
+        // Of equal ones the last.
+        let end = ends.rev().min_by_key(|end| live[*end]);
+        let end = end.unwrap_or(start + MOST);
+        stages.push(&ops[start..end]);
+        start = end;
+    }
+    stages.push(&ops[start..]);
+    stages
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{LEAST, MOST, stages};
+    use estampe_ir::op::Unary;
+    use estampe_ir::{Op, Value};
+
+    /// A chain of operations, of which every one uses the result of the one before.
+    fn chain(count: u32) -> Vec<(Op, Value)> {
+        let negated = |at: u32| (Op::Unary(Unary::FNeg, Value(at)), Value(at + 1));
+        (0..count).map(negated).collect()
+    }
+
+    #[test]
+    fn stages_have_all_operations_in_order() {
+        for count in 1..100 {
+            let ops = chain(count);
+            let ops: Vec<&(Op, Value)> = ops.iter().collect();
+            let found = stages(&ops);
+            assert_eq!(found.concat(), ops);
+            let (_, others) = found.split_last().unwrap();
+            let is_whole = |stage: &&[&(Op, Value)]| (LEAST..=MOST).contains(&stage.len());
+            assert!(others.iter().all(is_whole), "{count}");
+        }
+    }
+
+    #[test]
+    fn blocks_are_cut_where_few_values_live() {
+        // Two independent chains: between them no value lives.
+        let mut ops = chain(15);
+        let second = chain(20).into_iter();
+        ops.extend(second.map(|(_, Value(at))| {
+            let from = Value(at + 99);
+            (Op::Unary(Unary::FNeg, from), Value(at + 100))
+        }));
+        let ops: Vec<&(Op, Value)> = ops.iter().collect();
+        assert_eq!(stages(&ops)[0].len(), 15);
+    }
+}
