@@ -149,6 +149,8 @@ struct Selector<'a> {
     sums: HashMap<Value, [Value; 2]>,
     /// How often each value is used.
     use_counts: Vec<u32>,
+    /// The constants of the operation that is selected, where all halves take them from registers.
+    shared_constants: Option<Vec<(u32, VReg)>>,
 }
 
 /// Selects instructions for a kernel.
@@ -211,6 +213,7 @@ pub(crate) fn select(
         uniform: UniformGroups::default(),
         sums: HashMap::new(),
         use_counts: vec![0; kernel.values.len()],
+        shared_constants: None,
     };
     selector.count_uses();
     let prepare = selector.prepare()?;

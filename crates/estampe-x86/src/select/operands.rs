@@ -106,6 +106,10 @@ impl Selector<'_> {
 
     /// A word that is the same in all lanes.
     pub(super) fn constant(&mut self, word: u32) -> Source {
+        let known = self.shared_constants.as_deref().unwrap_or_default();
+        if let Some((_, known)) = known.iter().find(|(known, _)| *known == word) {
+            return Source::Register(*known);
+        }
         // Without embedded broadcasts the pool has whole vectors.
         let (copies, is_broadcast) = match self.isa {
             Isa::Avx2 => (8, false),
@@ -117,7 +121,15 @@ impl Selector<'_> {
             offset,
             is_broadcast,
         };
-        Source::Memory(memory, None)
+        let source = Source::Memory(memory, None);
+        if self.shared_constants.is_none() {
+            return source;
+        }
+        let register = self.in_register(source);
+        if let Some(shared) = &mut self.shared_constants {
+            shared.push((word, register));
+        }
+        Source::Register(register)
     }
 
     /// Constant words, one for each lane of a register.

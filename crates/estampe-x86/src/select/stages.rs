@@ -4,7 +4,8 @@
 //! them all for the two of one packet; what lives from a stage to the next is in memory. So blocks
 //! are cut where few values live, and their operations stay as they are written, in which few live
 //! at once. Stages are short: the processor must find those of both packets among the operations
-//! that it looks ahead.
+//! that it looks ahead. Where both are there, the units that load are the limit: the registers of a
+//! packet share a load of each constant of an operation.
 
 use super::plan::Plan;
 use super::{Selector, is_in_loop};
@@ -89,10 +90,12 @@ impl Selector<'_> {
                     }
                     continue;
                 }
+                self.shared_constants = (halves.len() > 1).then(Vec::new);
                 for half in halves.clone() {
                     let register = self.half_of(op, half).ok_or(CompileError::Unknown)?;
                     self.define(*first, half, register);
                 }
+                self.shared_constants = None;
             }
         }
         Ok(())
