@@ -18,7 +18,7 @@ use std::sync::atomic::Ordering::Relaxed;
 const OPERATIONS: usize = 100;
 
 /// The words of the buffer.
-const WORDS: usize = 32;
+const WORDS: u32 = 32;
 
 /// A word that is made of two others: integers, floats, choices, neighbours, or, if there may be
 /// calls, what code does not do itself.
@@ -97,7 +97,7 @@ fn kernel(random: &mut Rng, (has_calls, has_store): (bool, bool)) -> Kernel {
     b.end_loop();
     let results = b.end_block();
     if has_store {
-        let places = b.word(WORDS as u32 * 8 - 4);
+        let places = b.word(WORDS * 8 - 4);
         let offset = b.binary(Binary::And, inputs[1], places);
         b.op(Op::StoreBuffer {
             buffer: 1,
@@ -132,7 +132,7 @@ fn run_with(packets: usize, seed: u64, go: &mut dyn FnMut(&Run<'_>)) -> Vec<u32>
         ],
         buffers: &[
             Buffer::read_only(&[3, 5, 8], 12),
-            Buffer::shared(&written, WORDS * 4),
+            Buffer::shared(&written, WORDS as usize * 4),
         ],
         ..Run::new(packets)
     });

@@ -5,7 +5,7 @@
 //! | instruction set | kernel | lanes of a pass | registers of a value |
 //! |---|---|---|---|
 //! | AVX2 | all | 16: a packet | 2 |
-//! | AVX2, optimised | with long loops: a second function | 32: two packets | 4 |
+//! | AVX2, optimised | with long chains in loops: a second function | 32: two packets | 4 |
 //! | AVX-512 | all | 16: a packet | 1 |
 //! | AVX-512, optimised | most: a second function | 32: two packets | 2 |
 //!
@@ -13,9 +13,10 @@
 //! halves, which are independent, fill the time. Lit fragments, ns each, with one register and with
 //! two: AVX2 13.1 and 9.7, AVX-512 8.8 and 7.05, though they spill more; traced rays, which loop,
 //! at 720p with AVX-512: 122 ms and 87. AVX2 has too few registers for that: there two packets take
-//! turns ([`stages`]), and only in kernels with a long loop and without textures. WGSL's `heavy_fs`
-//! takes 0.905 of its time on Zen 3 so, but a loop of few operations, which one packet runs
-//! without memory, 1.3 times as long. Branches are taken if a lane of either packet asks for it.
+//! turns ([`stages`]), and only in kernels with a long loop, whose iteration is mostly a chain, and
+//! without textures. WGSL's `heavy_fs` takes 0.89 of its time on Zen 3 so, but a loop of few
+//! operations, which one packet runs without memory, 1.3 times as long. Branches are taken if a
+//! lane of either packet asks for it.
 //! Calls serve one packet after the other. Kernels with several effects on memory, or arrays, or
 //! barriers, run single packets; so does the last packet of an odd number.
 //!
