@@ -11,6 +11,8 @@ pub(crate) mod pixel_rect;
 
 pub(crate) mod sample_rect;
 
+pub(crate) mod lane_order;
+
 pub(crate) mod plane;
 
 pub(crate) mod transpose;

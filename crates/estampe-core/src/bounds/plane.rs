@@ -1,6 +1,7 @@
 //! Planes: values that are linear in the window.
 
-use estampe_simd::{LANES, Lanes, SimdBase, f32x16, u32x16};
+use super::lane_order::LaneOrder;
+use estampe_simd::{LANES, Lanes, f32x16};
 
 /// A value that is linear in the window: `origin + ((X − x₀)·dx + (Y − y₀)·dy)`.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -8,6 +9,22 @@ pub(crate) struct Plane {
     pub(crate) origin: f32,
     pub(crate) dx: f32,
     pub(crate) dy: f32,
+}
+
+/// One plane for each lane.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct PlaneLanes<S: Lanes> {
+    origin: f32x16<S>,
+    dx: f32x16<S>,
+    dy: f32x16<S>,
+}
+
+impl<S: Lanes> PlaneLanes<S> {
+    /// The planes' values at these distances from their origins.
+    #[inline(always)]
+    pub(crate) fn at(&self, [x, y]: [f32x16<S>; 2]) -> f32x16<S> {
+        self.origin + (x * self.dx + y * self.dy)
+    }
 }
 
 /// Sixteen planes.
@@ -35,13 +52,14 @@ impl PlanePacket {
         }
     }
 
-    /// The values of the planes that `lane` names, at these distances from their origins.
+    /// The planes of the lanes' primitives.
     #[inline(always)]
-    pub(crate) fn at<S: Lanes>(&self, s: S, lane: u32x16<S>, [x, y]: [f32x16<S>; 2]) -> f32x16<S> {
-        let origin = s.permute_f32(f32x16::load_array_ref(s, &self.origin), lane);
-        let dx = s.permute_f32(f32x16::load_array_ref(s, &self.dx), lane);
-        let dy = s.permute_f32(f32x16::load_array_ref(s, &self.dy), lane);
-        origin + (x * dx + y * dy)
+    pub(crate) fn of_lanes<S: Lanes>(&self, s: S, order: impl LaneOrder<S>) -> PlaneLanes<S> {
+        PlaneLanes {
+            origin: order.permuted(s, &self.origin),
+            dx: order.permuted(s, &self.dx),
+            dy: order.permuted(s, &self.dy),
+        }
     }
 
     #[inline(always)]

@@ -6,11 +6,12 @@
 //! does for one triangle, and no lane is empty but in the last row.
 
 use super::interpolate::{VaryingSource, smooth_derivatives};
+use crate::bounds::lane_order::{AnyOrder, LaneOrder};
 use crate::bounds::primitives::{TrianglePacket, VertexRef};
 use crate::bounds::triangle_edges::TriangleEdges;
 use crate::raster::pixel_list::Pixels;
 use crate::raster::small::PIXELS;
-use estampe_simd::{Bytes, LANES, Lanes, Packet, Select, SimdBase, Window, f32x16, i32x16, u32x16};
+use estampe_simd::{Bytes, LANES, Lanes, Packet, Select, SimdBase, f32x16, u32x16};
 use estampe_types::Interpolation;
 
 /// Fragments of one packet's small triangles in rows of sixteen, the first of which may hold
@@ -38,41 +39,19 @@ pub(crate) struct Row<S: Lanes> {
 }
 
 impl<S: Lanes> Row<S> {
-    /// The lanes of the triangles as a window, if they are one. Most are: a row's fragments are in
-    /// the order of their triangles.
+    /// The lanes of the triangles, mostly as a window: a row's fragments are in the order of their
+    /// triangles.
     #[inline(always)]
-    fn window(self, s: S) -> Option<Window<S>> {
-        if const { !S::HAS_WINDOWS } {
-            return None;
-        }
+    pub(crate) fn order(self, s: S) -> AnyOrder<S> {
         let mut lane = self.pixels.lane();
-        if self.is_open {
+        if const { S::HAS_WINDOWS } && self.is_open {
             // Lanes that hold fragments already are of any triangles.
             let first = <u32x16<S> as SimdBase<S>>::splat(s, self.lanes.trailing_zeros());
             lane = s
                 .mask_from_bits(self.lanes)
                 .select(lane, s.permute(lane, first));
         }
-        Window::new(s, lane)
-    }
-}
-
-/// An order in which lanes take the values of their triangles.
-trait LaneOrder<S: Lanes>: Copy {
-    fn permuted(self, s: S, values: &Packet<f32>) -> f32x16<S>;
-}
-
-impl<S: Lanes> LaneOrder<S> for u32x16<S> {
-    #[inline(always)]
-    fn permuted(self, s: S, values: &Packet<f32>) -> f32x16<S> {
-        of_lanes(s, values, self)
-    }
-}
-
-impl<S: Lanes> LaneOrder<S> for Window<S> {
-    #[inline(always)]
-    fn permuted(self, s: S, values: &Packet<f32>) -> f32x16<S> {
-        self.permute_f32(s, &values.0)
+        AnyOrder::new(s, lane)
     }
 }
 
@@ -299,9 +278,11 @@ impl CrossPlanes {
         distances: [f32x16<S>; 2],
         out: &mut [Packet<f32>],
     ) {
-        match row.window(s) {
-            Some(window) => self.varyings_by(s, (row, window), source, distances, out),
-            None => self.varyings_by(s, (row, row.pixels.lane()), source, distances, out),
+        match row.order(s) {
+            AnyOrder::Window(window) => {
+                self.varyings_by(s, (row, window), source, distances, out);
+            }
+            AnyOrder::Lanes(lane) => self.varyings_by(s, (row, lane), source, distances, out),
         }
     }
 
@@ -326,7 +307,7 @@ impl CrossPlanes {
         let planes = self.corners[0].iter().zip(self.dx.iter().zip(&self.dy));
         for ((mode, out), (origin, (dx, dy))) in source.modes.iter().zip(&mut *out).zip(planes) {
             let mut value = if *mode == Interpolation::Flat {
-                order.permuted(s, origin)
+                order.permuted(s, &origin.0)
             } else {
                 evaluate(s, [origin, dx, dy], order, distances)
             };
@@ -355,8 +336,8 @@ impl CrossPlanes {
     ) {
         let kept = s.mask_from_bits(row.lanes);
         let of_iw = [
-            order.permuted(s, &self.iw[1]),
-            order.permuted(s, &self.iw[2]),
+            order.permuted(s, &self.iw[1].0),
+            order.permuted(s, &self.iw[2].0),
         ];
         let is_level = s.mask_from_bits(bits_of_row(s, self.equal_ws, row));
         let zero = <f32x16<S> as SimdBase<S>>::splat(s, 0.0);
@@ -364,8 +345,8 @@ impl CrossPlanes {
         for ((along_x, along_y), &k) in along_x.iter_mut().zip(along_y).zip(source.gradients) {
             let value = f32x16::load_array_ref(s, &varyings[k].0);
             let slopes = [
-                order.permuted(s, &self.dx[k]),
-                order.permuted(s, &self.dy[k]),
+                order.permuted(s, &self.dx[k].0),
+                order.permuted(s, &self.dy[k].0),
             ];
             let smooth = smooth_derivatives(slopes, value, of_iw, w);
             // As of one triangle, see `TriangleInterpolant`.
@@ -458,9 +439,9 @@ pub(super) fn of_lanes<S: Lanes>(s: S, values: &Packet<f32>, lane: u32x16<S>) ->
 #[inline(always)]
 pub(crate) fn bits_of_row<S: Lanes>(s: S, bits: u16, row: Row<S>) -> u16 {
     let splat = |value| <u32x16<S> as SimdBase<S>>::splat(s, value);
-    let signs = s.mask_from_bits(bits).select(splat(u32::MAX), splat(0));
-    let signs: i32x16<S> = s.permute(signs, row.pixels.lane()).bitcast();
-    s.sign_bits(signs) & row.lanes
+    // The bit of each lane's triangle is moved to the sign.
+    let signs = splat(u32::from(bits)) << (splat(31) - row.pixels.lane());
+    s.sign_bits(signs.bitcast()) & row.lanes
 }
 
 /// The planes of the lanes' triangles at the lanes' pixels.
@@ -471,8 +452,8 @@ fn evaluate<S: Lanes>(
     order: impl LaneOrder<S>,
     [x, y]: [f32x16<S>; 2],
 ) -> f32x16<S> {
-    let (dx, dy) = (order.permuted(s, dx), order.permuted(s, dy));
-    order.permuted(s, origin) + (x * dx + y * dy)
+    let (dx, dy) = (order.permuted(s, &dx.0), order.permuted(s, &dy.0));
+    order.permuted(s, &origin.0) + (x * dx + y * dy)
 }
 
 #[cfg(test)]

@@ -1,7 +1,8 @@
 //! The pixels of the packet that is being filled.
 
+use super::fill::LANE_NUMBERS;
 use crate::raster::MAX_PACKETS;
-use estampe_simd::{LANES, Lanes, SimdBase, u32x16};
+use estampe_simd::{LANES, Lanes, Select, SimdBase, SimdMask, SimdSplit, u32x16};
 use std::hint::select_unpredictable;
 
 /// Which pixels of the tile the last packet holds.
@@ -33,8 +34,16 @@ impl LastPacket {
         more: bool,
     ) -> usize {
         self.begin();
-        if !more && let Some(again) = s.repeats(u32x16::load_array_ref(s, places), lanes) {
-            return (u32::from(again) | 1 << LANES).trailing_zeros() as usize;
+        if !more {
+            let of_lanes = u32x16::load_array_ref(s, places);
+            if let Some(again) = s.repeats(of_lanes, lanes) {
+                return (u32::from(again) | 1 << LANES).trailing_zeros() as usize;
+            }
+            // Most often all are different, and where the two halves of a packet are registers, it
+            // takes a fifth of the operations to see that.
+            if const { S::HAS_WINDOWS } && are_distinct(s, of_lanes, lanes) {
+                return LANES;
+            }
         }
         self.add(places, lanes)
     }
@@ -70,6 +79,26 @@ impl LastPacket {
         let again = again & u32::from(lanes);
         (again | 1 << LANES).trailing_zeros() as usize
     }
+}
+
+/// Returns true if the pixels of some lanes are different ones: as half words, each is compared with
+/// those one to eight lanes further, around the end.
+#[inline(always)]
+fn are_distinct<S: Lanes>(s: S, places: u32x16<S>, lanes: u16) -> bool {
+    // No pixel of a tile, and different in each lane.
+    let other = u32x16::load_array(s, LANE_NUMBERS) | (MAX_PACKETS * LANES) as u32;
+    let places = s.mask_from_bits(lanes).select(places, other);
+    let (low, high) = places.split();
+    let places = s.narrow_u32x8(low, high);
+    let equal = places.simd_eq(places.slide::<1>(places))
+        | places.simd_eq(places.slide::<2>(places))
+        | places.simd_eq(places.slide::<3>(places))
+        | places.simd_eq(places.slide::<4>(places))
+        | places.simd_eq(places.slide::<5>(places))
+        | places.simd_eq(places.slide::<6>(places))
+        | places.simd_eq(places.slide::<7>(places))
+        | places.simd_eq(places.slide::<8>(places));
+    equal.all_false()
 }
 
 #[cfg(test)]
@@ -115,6 +144,20 @@ mod tests {
                 assert_eq!(begin(u16::MAX), 9, "{level:?}: as new as before");
                 assert_eq!(begin(!(1 << 3)), LANES, "{level:?}");
                 assert_eq!(begin(0x01FF), LANES, "{level:?}");
+            }
+        }
+        // Any two lanes.
+        for first in 0..LANES {
+            for second in first + 1..LANES {
+                let mut places: [u32; LANES] = std::array::from_fn(|lane| 4000 + lane as u32);
+                places[second] = places[first];
+                let without = !(1 << first);
+                for level in Level::all_available() {
+                    let mut begin =
+                        |lanes| dispatch!(level, s => last.begin_with(s, (&places, lanes), false));
+                    assert_eq!(begin(u16::MAX), second, "{level:?}, {first}");
+                    assert_eq!(begin(without), LANES, "{level:?}, {first} and {second}");
+                }
             }
         }
         // The last packet may have more.

@@ -123,17 +123,25 @@ fn fetch_words<S: Lanes>(
     } else {
         &index.vertex
     };
-    let mut out = [<u32x16<S> as SimdBase<S>>::splat(s, 0); 4];
+    let splat = |value| <u32x16<S> as SimdBase<S>>::splat(s, value);
+    let mut out = [splat(0); 4];
     let lanes = u32x16::load_array_ref(s, &lanes.0);
-    let whole = whole_elements(source, buffer);
-    let inside = lanes.simd_lt(<u32x16<S> as SimdBase<S>>::splat(s, whole));
-    let is_inside = s.bits_of_mask(inside) == u16::MAX;
+    let are_below = |count| s.bits_of_mask(lanes.simd_lt(splat(count))) == u16::MAX;
+    // Where gathers take longer than loads, three words or four are loads of four.
+    if const { S::LOADS_PAIRS }
+        && count > 2
+        && is_aligned
+        && are_below(whole_elements(source, buffer, 16))
+    {
+        let first = u32::try_from(offset / 4).unwrap_or(u32::MAX);
+        return s.gather_four(words, lanes * splat(source.stride / 4) + splat(first));
+    }
+    let size = source.attribute.format.size_bytes();
+    let is_inside = are_below(whole_elements(source, buffer, size));
     for (word, out) in out.iter_mut().take(count).enumerate() {
         *out = if is_aligned && is_inside {
-            let stride = <u32x16<S> as SimdBase<S>>::splat(s, source.stride / 4);
             let first = u32::try_from(offset / 4 + word).unwrap_or(u32::MAX);
-            let at = lanes * stride + <u32x16<S> as SimdBase<S>>::splat(s, first);
-            s.gather(words, at)
+            s.gather(words, lanes * splat(source.stride / 4) + splat(first))
         } else {
             let mut values = [0; LANES];
             for (value, &index) in values.iter_mut().zip(lanes.as_slice()) {
@@ -165,10 +173,11 @@ fn strided<S: Lanes>(s: S, rows: &[u32], stride: usize, is_single: bool) -> [u32
     components_of(s, &quads)
 }
 
-/// Returns the number of elements that hold an attribute completely inside the buffer.
+/// Returns the number of elements that hold so many bytes, from an attribute on, completely inside
+/// the buffer.
 #[inline(always)]
-fn whole_elements(source: &AttributeSource, buffer: &BufferData) -> u32 {
-    let end = source.attribute.offset as usize + source.attribute.format.size_bytes();
+fn whole_elements(source: &AttributeSource, buffer: &BufferData, bytes: usize) -> u32 {
+    let end = source.attribute.offset as usize + bytes;
     match (buffer.len_bytes().checked_sub(end), source.stride) {
         (None, _) => 0,
         (Some(_), 0) => u32::MAX,

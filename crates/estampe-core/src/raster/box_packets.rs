@@ -10,7 +10,7 @@ impl<const N: usize> SmallBoxes<N> {
     pub(crate) fn packets<S: Lanes>(&self, s: S, lanes: u16) -> ([u32; LANES], [u32; LANES]) {
         let splat = |value: u32| <u32x16<S> as SimdBase<S>>::splat(s, value);
         let low = splat(0xFFFF);
-        let first = u32x16::load_array_ref(s, &self.first);
+        let first = u32x16::load_array_ref(s, &self.first.0);
         let last = first + u32x16::load_array_ref(s, &self.extent);
         let columns = ((last & low) >> 2) - ((first & low) >> 2);
         let rows = (last >> 18) - (first >> 18);
@@ -50,7 +50,7 @@ mod tests {
             for (lane, expected) in expected.iter_mut().enumerate() {
                 let [x, y] = [random(57), random(57)];
                 let [across, down] = [random(8), random(8)];
-                boxes.first[lane] = x | y << 16;
+                boxes.first.0[lane] = x | y << 16;
                 boxes.extent[lane] = across | down << 16;
                 let is_empty = random(8) == 0;
                 if is_empty {

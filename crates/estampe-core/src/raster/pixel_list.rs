@@ -6,7 +6,7 @@
 //! fill packets because they come from a list, `instances` took 51 ms in place of 63.
 
 use super::small::PIXELS;
-use estampe_simd::{Bytes, LANES, Lanes, Select, SimdBase, i32x16, u32x16};
+use estampe_simd::{Bytes, LANES, Lanes, Packet, Select, SimdBase, i32x16, u32x16};
 
 /// Pixels of a packet's triangles, at most.
 const MOST: usize = LANES * PIXELS;
@@ -86,12 +86,12 @@ impl PixelList {
     pub(super) fn fill<S: Lanes, const HALVES: usize>(
         &mut self,
         s: S,
-        covered: &[[u32; LANES]; 2],
+        covered: &[Packet<u32>; 2],
         lanes: u16,
     ) {
         let mut len = 0;
         let [upper, lower] = covered;
-        for (lane, (upper, lower)) in upper.iter().zip(lower).enumerate() {
+        for (lane, (upper, lower)) in upper.0.iter().zip(&lower.0).enumerate() {
             let listed = 0u32.wrapping_sub(u32::from(lanes >> lane & 1));
             for (half, bits) in [upper, lower].into_iter().take(HALVES).enumerate() {
                 let out = self.pixels.get_mut(len..);
@@ -103,9 +103,19 @@ impl PixelList {
             }
         }
         self.len = len;
+        // Those behind the last are of its triangle, so that the last sixteen, too, are mostly of
+        // neighbouring lanes.
+        let last = self.pixels[len.saturating_sub(1) % MOST];
+        if let Some(behind) = self
+            .pixels
+            .get_mut(len..)
+            .and_then(<[u16]>::first_chunk_mut)
+        {
+            *behind = [last; LANES];
+        }
     }
 
-    /// Sixteen pixels from one on; those behind the last are unspecified, but pixels.
+    /// Sixteen pixels from one on; those behind the last repeat it, or are unspecified pixels.
     #[inline(always)]
     pub(crate) fn sixteen<S: Lanes>(&self, s: S, from: usize) -> Pixels<S> {
         let sixteen = self.pixels.get(from..).and_then(<[u16]>::first_chunk);

@@ -14,11 +14,12 @@
 use super::parts::Parts;
 use super::pixel_list::{PixelList, Pixels};
 use super::{SampleSet, TileShape};
+use crate::bounds::lane_order::{AnyOrder, LaneOrder};
 use crate::bounds::pixel_rect::PixelRect;
 use crate::bounds::primitives::TrianglePacket;
 use crate::depth_format::StoredDepth;
 use estampe_simd::{
-    Bytes, LANES, Lanes, Select, SimdBase, SimdCvtFloat, f32x16, i32x16, mask32x16, u32x16,
+    Bytes, LANES, Lanes, Packet, Select, SimdBase, SimdCvtFloat, f32x16, i32x16, mask32x16, u32x16,
 };
 
 /// Columns and rows of pixels that a small triangle's box has at most.
@@ -60,11 +61,11 @@ pub(super) struct BoxPixels<S: Lanes> {
 #[repr(C, align(64))]
 pub(crate) struct SmallBoxes<const N: usize> {
     /// By sample and lane: bit 8·row + column is that pixel of its box, rows 0 to 3 and 4 to 7.
-    covered: [[[u32; LANES]; 2]; N],
+    covered: [[Packet<u32>; 2]; N],
     /// Rows of the largest box.
     rows: usize,
     /// By lane: column and row of the box's first pixel in the tile, the row in the upper half.
-    pub(super) first: [u32; LANES],
+    pub(super) first: Packet<u32>,
     /// By lane: columns and rows of the box, less one, the rows in the upper half; of
     /// [small triangles](Self::cover_boxes) alone.
     pub(super) extent: [u32; LANES],
@@ -76,9 +77,9 @@ pub(crate) struct SmallBoxes<const N: usize> {
 impl<const N: usize> Default for SmallBoxes<N> {
     fn default() -> Self {
         Self {
-            covered: [[[0; LANES]; 2]; N],
+            covered: [[Packet::default(); 2]; N],
             rows: 0,
-            first: [0; LANES],
+            first: Packet::default(),
             extent: [0; LANES],
             from_x: [0.0; LANES],
             from_y: [0.0; LANES],
@@ -259,8 +260,8 @@ impl<const N: usize> SmallBoxes<N> {
                 }
             }
             let [upper, lower]: [u32x16<S>; 2] = halves.map(|half| half.bitcast());
-            upper.store_array(&mut covered[0]);
-            lower.store_array(&mut covered[1]);
+            upper.store_array(&mut covered[0].0);
+            lower.store_array(&mut covered[1].0);
         }
         self.rows = rows as usize;
     }
@@ -270,7 +271,7 @@ impl<const N: usize> SmallBoxes<N> {
     #[inline(always)]
     pub(super) fn set_places<S: Lanes>(&mut self, [x, y]: [i32x16<S>; 2], from: [i32x16<S>; 2]) {
         let first: u32x16<S> = (x | (y << 16)).bitcast();
-        first.store_array(&mut self.first);
+        first.store_array(&mut self.first.0);
         // Distances are exact: multiples of 1/256 below 2¹⁶.
         let [from_x, from_y] = from;
         (f32x16::float_from(from_x) * (1.0 / 256.0)).store_array(&mut self.from_x);
@@ -298,22 +299,23 @@ impl<const N: usize> SmallBoxes<N> {
     pub(crate) fn list_quads<S: Lanes>(&self, s: S, lanes: u16, list: &mut PixelList) {
         let mut any = self.covered_by_any(s);
         for rows in &mut any {
-            let pixels = u32x16::load_array_ref(s, rows);
+            let pixels = u32x16::load_array_ref(s, &rows.0);
             let columns = pixels | (pixels >> 1);
             let quads = (columns | (columns >> 8)) & splat_u32(s, 0x0055_0055);
-            quads.store_array(rows);
+            quads.store_array(&mut rows.0);
         }
         self.list_covered(s, &any, lanes, list);
     }
 
     /// The pixels of which any sample is covered.
     #[inline(always)]
-    fn covered_by_any<S: Lanes>(&self, s: S) -> [[u32; LANES]; 2] {
+    fn covered_by_any<S: Lanes>(&self, s: S) -> [Packet<u32>; 2] {
         let mut any = self.covered[0];
         for covered in &self.covered[1..] {
             for (any, covered) in any.iter_mut().zip(covered) {
-                let both = u32x16::load_array_ref(s, any) | u32x16::load_array_ref(s, covered);
-                both.store_array(any);
+                let of = |rows: &Packet<u32>| u32x16::load_array_ref(s, &rows.0);
+                let both = of(any) | of(covered);
+                both.store_array(&mut any.0);
             }
         }
         any
@@ -324,7 +326,7 @@ impl<const N: usize> SmallBoxes<N> {
     fn list_covered<S: Lanes>(
         &self,
         s: S,
-        covered: &[[u32; LANES]; 2],
+        covered: &[Packet<u32>; 2],
         lanes: u16,
         list: &mut PixelList,
     ) {
@@ -337,24 +339,37 @@ impl<const N: usize> SmallBoxes<N> {
 
     /// The lanes of sixteen pixels whose sample is covered.
     #[inline(always)]
-    pub(crate) fn covers<S: Lanes>(&self, s: S, sample: usize, pixels: Pixels<S>) -> u16 {
+    pub(crate) fn covers<S: Lanes>(
+        &self,
+        s: S,
+        sample: usize,
+        pixels: Pixels<S>,
+        order: impl LaneOrder<S>,
+    ) -> u16 {
         let [upper, lower] = &self.covered[sample % N];
-        let upper = s.permute(u32x16::load_array_ref(s, upper), pixels.lane());
-        let lower = s.permute(u32x16::load_array_ref(s, lower), pixels.lane());
+        let mut rows = order.permuted_words(s, upper);
         let bit = pixels.bit(s);
-        let is_upper = (bit & splat_u32(s, 32)).simd_eq(splat_u32(s, 0));
+        if self.rows > 4 {
+            let lower = order.permuted_words(s, lower);
+            let is_upper = (bit & splat_u32(s, 32)).simd_eq(splat_u32(s, 0));
+            rows = is_upper.select(rows, lower);
+        }
         // The bit is moved to the sign.
-        let shifted =
-            is_upper.select(upper, lower) << (splat_u32(s, 31) - (bit & splat_u32(s, 31)));
+        let shifted = rows << (splat_u32(s, 31) - (bit & splat_u32(s, 31)));
         s.sign_bits(shifted.bitcast())
     }
 
     /// The distances of sixteen pixels' first samples from their planes' origin, exact.
     #[inline(always)]
-    pub(crate) fn distances<S: Lanes>(&self, s: S, pixels: Pixels<S>) -> [f32x16<S>; 2] {
+    pub(crate) fn distances<S: Lanes>(
+        &self,
+        s: S,
+        pixels: Pixels<S>,
+        order: impl LaneOrder<S>,
+    ) -> [f32x16<S>; 2] {
         let [column, row] = [pixels.column(s), pixels.row(s)];
-        let from_x = s.permute_f32(f32x16::load_array_ref(s, &self.from_x), pixels.lane());
-        let from_y = s.permute_f32(f32x16::load_array_ref(s, &self.from_y), pixels.lane());
+        let from_x = order.permuted(s, &self.from_x);
+        let from_y = order.permuted(s, &self.from_y);
         [
             from_x + f32x16::float_from(column),
             from_y + f32x16::float_from(row),
@@ -363,8 +378,13 @@ impl<const N: usize> SmallBoxes<N> {
 
     /// Where sixteen pixels are in the tile: packet·16 + lane.
     #[inline(always)]
-    pub(crate) fn pixels_in_tile<S: Lanes>(&self, s: S, pixels: Pixels<S>) -> u32x16<S> {
-        let first = s.permute(u32x16::load_array_ref(s, &self.first), pixels.lane());
+    pub(crate) fn pixels_in_tile<S: Lanes>(
+        &self,
+        s: S,
+        pixels: Pixels<S>,
+        order: impl LaneOrder<S>,
+    ) -> u32x16<S> {
+        let first = order.permuted_words(s, &self.first);
         let step: u32x16<S> = (pixels.column(s) | (pixels.row(s) << 16)).bitcast();
         spread(s, first + step)
     }
@@ -372,8 +392,8 @@ impl<const N: usize> SmallBoxes<N> {
     /// The places of sixteen pixels' first samples in the tile.
     #[inline(always)]
     #[expect(clippy::cast_possible_truncation, reason = "four samples at most")]
-    pub(crate) fn places<S: Lanes>(&self, s: S, pixels: Pixels<S>) -> u32x16<S> {
-        let pixels = self.pixels_in_tile(s, pixels);
+    fn places<S: Lanes>(&self, s: S, pixels: Pixels<S>, order: impl LaneOrder<S>) -> u32x16<S> {
+        let pixels = self.pixels_in_tile(s, pixels, order);
         if const { N == 1 } {
             return pixels;
         }
@@ -398,13 +418,14 @@ impl<const N: usize> SmallBoxes<N> {
         let line = <u32x16<S> as SimdBase<S>>::splat(s, (sample * LANES) as u32);
         for (pixels, (places, depths)) in list.sixteens() {
             let pixels = Pixels(s.widen(pixels));
-            let [mut x, mut y] = self.distances(s, pixels);
+            let order = AnyOrder::new(s, pixels.lane());
+            let [mut x, mut y] = self.distances(s, pixels, order);
             if const { N > 1 } {
                 (x, y) = (x + from_first_x, y + from_first_y);
             }
-            let depth = packet.z.at(s, pixels.lane(), [x, y]);
+            let depth = packet.z.of_lanes(s, order).at([x, y]);
             stored.of(s, depth).store_array(depths);
-            (self.places(s, pixels) + line).store_array(places);
+            (self.places(s, pixels, order) + line).store_array(places);
         }
     }
 }

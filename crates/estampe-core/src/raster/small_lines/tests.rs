@@ -83,7 +83,7 @@ fn together<const N: usize>(
             small.list(s, sample, covered, &mut list);
             for at in (0..list.len()).step_by(LANES) {
                 let Pixels(pixels) = list.sixteen(s, at);
-                let places = small.pixels_in_tile(s, Pixels(pixels)).to_array();
+                let places = small.pixels_in_tile(s, Pixels(pixels), pixels >> 6).to_array();
                 let pixels = u32x16::to_array(pixels);
                 for (pixel, place) in pixels.into_iter().zip(places).take(list.len() - at) {
                     found[lane_of(pixel)][number].push(place);

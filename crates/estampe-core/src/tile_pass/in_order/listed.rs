@@ -3,6 +3,7 @@
 use super::small::{Listing, SmallScratch};
 use super::tests::run_apart;
 use super::{InOrder, InOrderScratch};
+use crate::bounds::lane_order::AnyOrder;
 use crate::depth_format::clamp_depth;
 use crate::fragment::cross_triangle::{Row, bits_of_row};
 use crate::fragment::fill::lanes_between;
@@ -35,13 +36,19 @@ pub(super) trait ListedValues {
     /// Returns true if all samples of a pixel have the depth of its centre.
     fn has_depths_of_centers<const N: usize>(of: &SmallScratch<N>) -> bool;
 
-    /// Depth, not yet clamped, of the primitives in `lane`.
-    fn depth<S: Lanes, const N: usize>(
-        of: &SmallScratch<N>,
+    /// What gives the depths of sixteen pixels, for all of their samples.
+    type Depths<'a, S: Lanes>;
+
+    /// The depths of the primitives in `lane`, which is also an order.
+    fn depths<'a, S: Lanes, const N: usize>(
+        of: &'a SmallScratch<N>,
         s: S,
+        order: AnyOrder<S>,
         lane: u32x16<S>,
-        distances: [f32x16<S>; 2],
-    ) -> f32x16<S>;
+    ) -> Self::Depths<'a, S>;
+
+    /// Depth, not yet clamped.
+    fn depth<S: Lanes>(of: &Self::Depths<'_, S>, s: S, distances: [f32x16<S>; 2]) -> f32x16<S>;
 
     /// 1/w at the pixels' centres.
     fn inverse_w<S: Lanes, const N: usize>(
@@ -117,18 +124,20 @@ impl<const N: usize> InOrder<'_, '_, '_, '_, N> {
                 scratch.listed.sixteen(s, from)
             };
             let listed = u16::MAX >> (LANES - (end - from).min(LANES));
-            let places = scratch.small.pixels_in_tile(s, pixels);
-            let first = scratch.small.distances(s, pixels);
+            let order = AnyOrder::new(s, pixels.lane());
+            let places = scratch.small.pixels_in_tile(s, pixels, order);
+            let first = scratch.small.distances(s, pixels, order);
+            let new_depths = V::depths(scratch, s, order, pixels.lane());
             let zero = <u32x16<S> as SimdBase<S>>::splat(s, 0);
             let (mut samples, mut any) = (zero, 0);
             for (sample, depth_at) in depths_at.iter().enumerate().take(count) {
                 let mut mask = listed;
                 if N > 1 || quads {
-                    mask &= scratch.small.covers(s, sample, pixels);
+                    mask &= scratch.small.covers(s, sample, pixels, order);
                 }
                 if tests && mask != 0 {
                     let distances = moved(first, offsets[0], *depth_at);
-                    let new = V::depth(scratch, s, pixels.lane(), distances);
+                    let new = V::depth(&new_depths, s, distances);
                     let new = plan.tests.stored.of(s, new);
                     let depths = bits_of(self.job.depth.as_flattened());
                     let stored = s.gather(depths, indices_of(s, places, [count, sample]));
@@ -228,13 +237,15 @@ impl<const N: usize> InOrder<'_, '_, '_, '_, N> {
             masks,
             front: bits_of_row(s, V::front(scratch), row),
         };
-        let first = scratch.small.distances(s, pixels);
+        let order = row.order(s);
+        let first = scratch.small.distances(s, pixels, order);
         if tests {
+            let depths = V::depths(scratch, s, order, pixels.lane());
             let place = &packet.place();
             for (sample, place_of_depth) in depths_at.into_iter().enumerate().take(samples) {
                 let mask = &mut packet.masks[sample];
                 let distances = moved(first, offsets[0], place_of_depth);
-                let new = V::depth(scratch, s, pixels.lane(), distances);
+                let new = V::depth(&depths, s, distances);
                 let new = plan.tests.stored.of(s, new);
                 let fragments = (new, *mask, packet.front);
                 let at = (place, samples, sample);
@@ -266,19 +277,20 @@ impl<const N: usize> InOrder<'_, '_, '_, '_, N> {
         let source = &self.source;
         V::varyings(small, s, row, source, center, inputs.varyings);
         let set = inputs.lanes;
+        let depths = V::depths(small, s, order, pixels.lane());
         if let Some([to_x, to_y, to_z, to_w]) = inputs.position {
             let tile = [self.work.shape.x, self.work.shape.y];
             let places = u32x16::load_array(s, places);
             let [x, y] = WindowPixels::of_places(s, places, tile).coordinates([0.5; 2]);
             replace(s, to_x, set, x);
             replace(s, to_y, set, y);
-            let depth = V::depth(small, s, pixels.lane(), center);
+            let depth = V::depth(&depths, s, center);
             replace(s, to_z, set, clamp_depth(s, depth, inputs.depth_range));
             replace(s, to_w, set, V::inverse_w(small, s, row, center));
         }
         for (to, place_of_depth) in inputs.depths.iter_mut().zip(depths_at) {
             let distances = moved(first, offsets[0], place_of_depth);
-            let depth = V::depth(small, s, pixels.lane(), distances);
+            let depth = V::depth(&depths, s, distances);
             replace(s, to, set, clamp_depth(s, depth, inputs.depth_range));
         }
         if quads || end < wanted && !is_shown {

@@ -16,7 +16,9 @@
 
 use super::InOrder;
 use super::listed::ListedValues;
+use crate::bounds::lane_order::AnyOrder;
 use crate::bounds::lines::LinePacket;
+use crate::bounds::plane::PlaneLanes;
 use crate::bounds::primitives::{PackedTriangle, TrianglePacket};
 use crate::fragment::cross_line::CrossLines;
 use crate::fragment::cross_triangle::{CrossPlanes, Row};
@@ -178,14 +180,21 @@ impl ListedValues for OfTriangles {
         false
     }
 
+    type Depths<'a, S: Lanes> = PlaneLanes<S>;
+
     #[inline(always)]
-    fn depth<S: Lanes, const N: usize>(
+    fn depths<S: Lanes, const N: usize>(
         of: &SmallScratch<N>,
         s: S,
-        lane: u32x16<S>,
-        distances: [f32x16<S>; 2],
-    ) -> f32x16<S> {
-        of.packet.z.at(s, lane, distances)
+        order: AnyOrder<S>,
+        _lane: u32x16<S>,
+    ) -> PlaneLanes<S> {
+        of.packet.z.of_lanes(s, order)
+    }
+
+    #[inline(always)]
+    fn depth<S: Lanes>(of: &PlaneLanes<S>, _s: S, distances: [f32x16<S>; 2]) -> f32x16<S> {
+        of.at(distances)
     }
 
     #[inline(always)]

@@ -8,7 +8,9 @@ use super::InOrder;
 use super::listed::ListedValues;
 use super::small::{Listing, SmallScratch};
 use crate::bounds::bins::BinEntry;
+use crate::bounds::lane_order::AnyOrder;
 use crate::bounds::lines::LinePacket;
+use crate::fragment::cross_line::CrossLines;
 use crate::fragment::cross_triangle::Row;
 use crate::fragment::fill::lanes_between;
 use crate::fragment::interpolate::VaryingSource;
@@ -126,14 +128,25 @@ impl ListedValues for OfLines {
         of.cross_lines.has_depths_of_centers()
     }
 
+    type Depths<'a, S: Lanes> = (&'a CrossLines, u32x16<S>);
+
     #[inline(always)]
-    fn depth<S: Lanes, const N: usize>(
+    fn depths<S: Lanes, const N: usize>(
         of: &SmallScratch<N>,
-        s: S,
+        _s: S,
+        _order: AnyOrder<S>,
         lane: u32x16<S>,
+    ) -> (&CrossLines, u32x16<S>) {
+        (&of.cross_lines, lane)
+    }
+
+    #[inline(always)]
+    fn depth<S: Lanes>(
+        (lines, lane): &(&CrossLines, u32x16<S>),
+        s: S,
         distances: [f32x16<S>; 2],
     ) -> f32x16<S> {
-        of.cross_lines.depth(s, lane, distances)
+        lines.depth(s, *lane, distances)
     }
 
     #[inline(always)]

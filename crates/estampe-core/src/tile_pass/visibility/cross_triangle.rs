@@ -162,7 +162,7 @@ impl<const N: usize> Rasterizer<'_, '_, '_, N> {
                 queue.push_across_triangles(row.lanes, front)
             };
             // Exact, as in the coverage.
-            let distances = small.distances(s, row.pixels);
+            let distances = small.distances(s, row.pixels, row.order(s));
             cross.planes.varyings(s, row, &source, distances, out);
         }
         let cross = &mut self.scratch.visibility.cross;

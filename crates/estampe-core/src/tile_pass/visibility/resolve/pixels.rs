@@ -189,7 +189,7 @@ impl<'a, const N: usize> Resolver<'a, '_, '_, N> {
             let set = inputs.lanes;
             replace(s, to_x, set, x);
             replace(s, to_y, set, y);
-            let depth = triangles.z.at(s, lane, distances);
+            let depth = triangles.z.of_lanes(s, lane).at(distances);
             replace(s, to_z, set, clamp_depth(s, depth, inputs.depth_range));
             let inverse_w = planes.inverse_w(s, row, triangles, distances);
             replace(s, to_w, set, inverse_w);
