@@ -23,8 +23,8 @@ impl<S: Lanes> LaneOrder<S> for u32x16<S> {
     }
 
     #[inline(always)]
-    fn permuted_words(self, s: S, values: &Packet<u32>) -> u32x16<S> {
-        s.permute(u32x16::load_array_ref(s, &values.0), self)
+    fn permuted_words(self, s: S, values: &Packet<u32>) -> Self {
+        s.permute(Self::load_array_ref(s, &values.0), self)
     }
 }
 

@@ -81,9 +81,10 @@ impl LastPacket {
     }
 }
 
-/// Returns true if the pixels of some lanes are different ones: as half words, each is compared with
-/// those one to eight lanes further, around the end.
+/// Returns true if the pixels of some lanes are different ones: as half words, each is compared
+/// with those one to eight lanes further, around the end.
 #[inline(always)]
+#[expect(clippy::cast_possible_truncation, reason = "a tile has 4096 pixels")]
 fn are_distinct<S: Lanes>(s: S, places: u32x16<S>, lanes: u16) -> bool {
     // No pixel of a tile, and different in each lane.
     let other = u32x16::load_array(s, LANE_NUMBERS) | (MAX_PACKETS * LANES) as u32;
@@ -149,7 +150,7 @@ mod tests {
         // Any two lanes.
         for first in 0..LANES {
             for second in first + 1..LANES {
-                let mut places: [u32; LANES] = std::array::from_fn(|lane| 4000 + lane as u32);
+                let mut places = LANE_NUMBERS.map(|lane| 4000 + lane);
                 places[second] = places[first];
                 let without = !(1 << first);
                 for level in Level::all_available() {
