@@ -8,6 +8,7 @@ use estampe::Level;
 /// numbers of threads.
 fn same_everywhere(words: &str) -> Vec<u8> {
     let mut pictures = Vec::new();
+    // Each level once: the first machine is the best level again.
     for machine in machines().into_iter().skip(1) {
         let run = estampe(&format!("render {words} -o - -q {machine}"), &[]);
         assert_eq!(run.code, 0, "{words}: {}", run.err);
