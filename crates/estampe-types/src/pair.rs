@@ -12,8 +12,9 @@ use std::ops::{
 ///
 /// Each operation is done on both halves, which do not depend on each other. Where each operation
 /// depends on the previous one, a single packet leaves most of the processor's execution units
-/// idle. So fragments are shaded two packets at a time where one register holds a packet, and a
-/// pair of pairs at a time where they have long loops.
+/// idle. So fragments are shaded two packets at a time where one register holds a packet. Where
+/// they have long loops they are shaded a pair of pairs at a time there, and a pair at a time where
+/// two registers hold a packet.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pair<T>(pub T, pub T);
 

@@ -218,7 +218,7 @@ pub(super) fn write_rows<S: Lanes, const WORDS: usize, const BYTES: usize>(
     packets: [&[u32]; 4],
     to: [&mut [u8]; PACKET_SIDE],
 ) {
-    if const { S::IN_ONE_REGISTER && WORDS == 2 && cfg!(target_endian = "little") } {
+    if const { S::REGISTERS == 1 && WORDS == 2 && cfg!(target_endian = "little") } {
         return write_rows_of_pairs(s, packets, to);
     }
     outline!(s, {

@@ -30,7 +30,7 @@ pub(crate) fn components_of<S: Lanes>(s: S, rows: &[&[u32; 4]; LANES]) -> [u32x1
 pub(crate) fn components_of_three<S: Lanes>(s: S, records: &[[u32; 3]; LANES]) -> [u32x16<S>; 3] {
     // Loads of single words would be as many as the words; and vectors that are made of them have
     // to wait for one another.
-    if const { S::IN_ONE_REGISTER } {
+    if const { S::REGISTERS == 1 } {
         return [
             component_of_three::<S, 0>(s, records),
             component_of_three::<S, 1>(s, records),

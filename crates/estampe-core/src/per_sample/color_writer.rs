@@ -296,7 +296,7 @@ fn replace_texels<S: Lanes>(
     mask: u16,
 ) {
     // Where a packet is two registers, a mask takes longer than the branch without one.
-    if const { !S::IN_ONE_REGISTER } && mask == u16::MAX {
+    if const { S::REGISTERS > 1 } && mask == u16::MAX {
         for (line, texel) in lines.iter_mut().zip(texels) {
             texel.store_array(line);
         }

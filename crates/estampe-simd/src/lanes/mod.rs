@@ -21,8 +21,8 @@ pub trait Lanes: Simd {
     /// True if lanes are plain scalars, so that code for sixteen lanes is long.
     const IS_SCALAR: bool = false;
 
-    /// True if one register holds sixteen lanes.
-    const IN_ONE_REGISTER: bool = false;
+    /// How many registers hold sixteen lanes.
+    const REGISTERS: usize = 4;
 
     /// True if permutations from a [`Window`] take less time than others.
     const HAS_WINDOWS: bool = false;

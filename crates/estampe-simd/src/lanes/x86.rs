@@ -72,6 +72,7 @@ impl Lanes for Sse2 {
 }
 
 impl Lanes for Avx2 {
+    const REGISTERS: usize = 2;
     const HAS_WINDOWS: bool = true;
     const LOADS_PAIRS: bool = true;
 
@@ -226,7 +227,7 @@ impl Lanes for Avx2 {
 }
 
 impl Lanes for Avx512 {
-    const IN_ONE_REGISTER: bool = true;
+    const REGISTERS: usize = 1;
 
     #[inline(always)]
     fn as_level(self) -> Level {

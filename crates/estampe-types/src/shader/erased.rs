@@ -74,8 +74,8 @@ impl<T: Shader> Program for ShaderProgram<T> {
         let mut rest = 0..batch.coverage.len();
         if self.loops_long {
             // In a function of its own: the time of a compiler grows faster than functions do.
-            let fours = (reborrowed(&mut batch), 0..rest.end / 4 * 4);
-            rest.start = dispatch!(@wide level, s => self.by_fours(s, bindings, fours),
+            let all = (reborrowed(&mut batch), rest.clone());
+            rest.start = dispatch!(@wide level, s => self.in_long_loops(s, bindings, all),
                 scalar => 0);
         }
         dispatch!(@wide level, s => self.fragments_of(s, bindings, (batch, rest)),
@@ -160,25 +160,35 @@ impl<T: Shader> ShaderProgram<T> {
     /// run while those of the other wait for their operands; else one after the other.
     #[inline(always)]
     fn fragments_of<S: Lanes>(&self, simd: S, bindings: &Bindings, of: Part<'_>) {
-        if const { S::IN_ONE_REGISTER } {
+        if const { S::REGISTERS == 1 } {
             self.fragments::<_, Pair<f32x16<S>>, 2>(simd, bindings, of);
         } else {
             self.fragments::<_, f32x16<S>, 1>(simd, bindings, of);
         }
     }
 
-    /// Shades the first packets, four at a time where a register holds a packet, and returns how
-    /// many are done: all of them, or none.
+    /// Shades the first packets twice as many at a time, where a packet has one register or two;
+    /// returns how many are done.
     ///
     /// An iteration of a long loop waits for the one before, and has more operations than the
-    /// processor looks ahead: two packets leave half of its units idle. Only of shaders with few
-    /// varyings, as are those over a whole picture: of every shader another copy at this width took
-    /// the compiler four times as long for physically based surfaces.
+    /// processor looks ahead: two registers of each value leave half of its units idle. Only of
+    /// shaders with few varyings, as are those over a whole picture: of every shader another copy
+    /// at this width took the compiler four times as long for physically based surfaces.
     #[inline(always)]
-    fn by_fours<S: Lanes>(&self, simd: S, bindings: &Bindings, of: Part<'_>) -> usize {
-        if const { S::IN_ONE_REGISTER && FOURS && size_of::<T::Varyings<f32>>() <= FEW_VARYINGS } {
-            let end = of.1.end;
-            self.fragments::<_, Pair<Pair<f32x16<S>>>, 4>(simd, bindings, of);
+    fn in_long_loops<S: Lanes>(&self, simd: S, bindings: &Bindings, of: Part<'_>) -> usize {
+        let (batch, all) = of;
+        if const { !LONG_LOOPS_APART || size_of::<T::Varyings<f32>>() > FEW_VARYINGS } {
+            return 0;
+        }
+        if const { S::REGISTERS == 1 } {
+            let some = 0..all.end / 4 * 4;
+            let end = some.end;
+            self.fragments::<_, Pair<Pair<f32x16<S>>>, 4>(simd, bindings, (batch, some));
+            end
+        } else if const { S::REGISTERS == 2 } {
+            let some = 0..all.end / 2 * 2;
+            let end = some.end;
+            self.fragments::<_, Pair<f32x16<S>>, 2>(simd, bindings, (batch, some));
             end
         } else {
             0
@@ -263,7 +273,7 @@ impl<T: Shader> ShaderProgram<T> {
 
 /// Dev builds are not for speed: there the copies would only take time to compile. This crate's
 /// tests have them.
-const FOURS: bool = !cfg!(debug_assertions) || cfg!(test);
+const LONG_LOOPS_APART: bool = !cfg!(debug_assertions) || cfg!(test);
 
 /// The bytes of two scalars, a place in the picture.
 const FEW_VARYINGS: usize = 2 * size_of::<f32>();

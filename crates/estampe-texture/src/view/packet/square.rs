@@ -187,7 +187,7 @@ impl<S: SimdLanes> BlockLevel<'_, S> {
                 };
                 // In one register, five lines in place of eight gain nothing.
                 let are_neighbours =
-                    const { !S::IN_ONE_REGISTER } && found.neighbours[row] & ROWS == ROWS;
+                    const { S::REGISTERS > 1 } && found.neighbours[row] & ROWS == ROWS;
                 let [r, g, b, a] = if are_neighbours {
                     of.between_neighbours(s, footprint, lines)
                 } else {
