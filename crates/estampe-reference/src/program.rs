@@ -171,6 +171,37 @@ impl<'a> ProgramShaders<'a> {
     }
 }
 
+/// Packets of zeros: on the stack as far as they fit, as memory that is aligned to packets takes
+/// longer to get than the work on it.
+struct Memory {
+    stack: [Packet<f32>; 32],
+    heap: Vec<Packet<f32>>,
+}
+
+impl Memory {
+    fn new() -> Self {
+        Self {
+            stack: [splat(0.0); 32],
+            heap: Vec::new(),
+        }
+    }
+
+    /// So many packets of each of four kinds.
+    fn split(&mut self, counts: [usize; 4]) -> [&mut [Packet<f32>]; 4] {
+        let count = counts.iter().sum();
+        let all = if count <= self.stack.len() {
+            &mut self.stack[..count]
+        } else {
+            self.heap.resize(count, splat(0.0));
+            &mut self.heap
+        };
+        let (first, rest) = all.split_at_mut(counts[0]);
+        let (second, rest) = rest.split_at_mut(counts[1]);
+        let (third, fourth) = rest.split_at_mut(counts[2]);
+        [first, second, third, fourth]
+    }
+}
+
 /// A packet with a value in every lane.
 fn splat(value: f32) -> Packet<f32> {
     Packet([value; LANES])
@@ -188,29 +219,36 @@ impl Shaders for ProgramShaders<'_> {
 
     fn vertex(&self, input: &VertexInput<'_>, attributes: &[f32]) -> ClipVertex {
         let interface = self.program.interface();
-        let attributes: Vec<_> = attributes.iter().map(|&scalar| splat(scalar)).collect();
         let mut positions = [splat(0.0); 4];
-        let mut varyings = vec![splat(0.0); interface.varyings.len()];
-        let mut point_sizes = vec![splat(1.0); usize::from(interface.writes_point_size)];
-        let mut distances = vec![splat(0.0); interface.distances()];
+        let mut memory = Memory::new();
+        let [inputs, varyings, point_sizes, distances] = memory.split([
+            attributes.len(),
+            interface.varyings.len(),
+            usize::from(interface.writes_point_size),
+            interface.distances(),
+        ]);
+        for (input, &scalar) in inputs.iter_mut().zip(attributes) {
+            *input = splat(scalar);
+        }
+        point_sizes.fill(splat(1.0));
         self.program.run_vertices(
             self.level,
             input.bindings,
             VertexBatch {
-                attributes: &attributes,
+                attributes: inputs,
                 vertex_index: &[Packet([input.vertex_index; LANES])],
                 instance_index: &[Packet([input.instance_index; LANES])],
                 positions: &mut positions,
-                varyings: &mut varyings,
-                point_sizes: &mut point_sizes,
-                distances: &mut distances,
+                varyings,
+                point_sizes,
+                distances,
             },
         );
         let first = |packets: &[Packet<f32>]| packets.iter().map(|packet| packet.0[0]).collect();
         let (clip, cull) = distances.split_at(interface.clip_distances);
         ClipVertex {
             position: positions.map(|packet| packet.0[0]),
-            varyings: first(&varyings),
+            varyings: first(varyings),
             point_size: point_sizes.first().map_or(1.0, |packet| packet.0[0]),
             clip_distances: first(clip),
             cull_distances: first(cull),
@@ -219,32 +257,36 @@ impl Shaders for ProgramShaders<'_> {
 
     fn quad(&self, input: &QuadInput<'_>) -> [ShadedFragment; 4] {
         let interface = self.program.interface();
-        let scalars = 0..interface.fragment_scalars();
-        let varyings: Vec<_> = scalars
-            .map(|k| quads(input.varyings.each_ref().map(|lane| lane[k])))
-            .collect();
+        let mut memory = Memory::new();
+        let [varyings, colors, depths, _] = memory.split([
+            interface.fragment_scalars(),
+            interface.colors() * 4,
+            usize::from(interface.depth_output != DepthOutput::None),
+            0,
+        ]);
+        for (k, varying) in varyings.iter_mut().enumerate() {
+            *varying = quads(input.varyings.each_ref().map(|lane| lane[k]));
+        }
         let positions = [0, 1, 2, 3].map(|k: usize| quads(input.positions.map(|p| p[k])));
         // The quads beyond the first only fill the packet.
         let coverage = (0..4).filter(|&lane| !input.is_helper[lane]);
         let coverage = coverage.fold(0_u16, |bits, lane| bits | 1 << lane);
         let mut kept = [coverage];
-        let mut colors = vec![splat(0.0); interface.colors() * 4];
-        let mut depths = vec![splat(0.0); usize::from(interface.depth_output != DepthOutput::None)];
-        let writes_mask = interface.writes_sample_mask;
-        let mut masks = vec![Packet([u32::MAX; LANES]); usize::from(writes_mask)];
+        let mut masks = [Packet([u32::MAX; LANES])];
+        let masks = &mut masks[..usize::from(interface.writes_sample_mask)];
         self.program.run_fragments(
             self.level,
             input.bindings,
             FragmentBatch {
-                varyings: &varyings,
+                varyings,
                 positions: &positions,
                 front_facing: &[if input.front_facing { u16::MAX } else { 0 }],
                 sample_index: &[input.sample_index],
                 samples_covered: &[quads(input.coverage.map(u32::from))],
                 coverage: &mut kept,
-                colors: &mut colors,
-                depths: &mut depths,
-                sample_masks: &mut masks,
+                colors,
+                depths,
+                sample_masks: masks,
             },
         );
         let color = |index: usize, lane: usize| -> [f32; 4] {
