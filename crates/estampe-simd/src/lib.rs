@@ -55,7 +55,9 @@ pub use fearless_simd::{
 #[cfg(target_arch = "x86_64")]
 #[doc(hidden)]
 pub use gather::SquareLoads;
-pub use gather::{bits_of, bits_of_mut, floats_of, floats_of_mut, ints_of, words_of};
+pub use gather::{
+    bits_of, bits_of_mut, bits_of_packets, floats_of, floats_of_mut, ints_of, words_of,
+};
 pub use huge_pages::advise_huge_pages;
 pub use index::{Lane, LanesOf, PacketIndex};
 pub use lanes::Lanes;

@@ -3,6 +3,7 @@
 
 use super::fill::LANE_NUMBERS;
 use super::quad::{QUAD, QUADS};
+use crate::pipeline::color_target::MAX_WORDS;
 use estampe_simd::{
     Bytes, LANES, Lanes, Select, SimdBase, bits_of, bits_of_mut, f32x16, outline, u32x4, u32x16,
 };
@@ -112,78 +113,111 @@ impl Place {
         u32x16::load_array(s, pixels)
     }
 
-    /// Sixteen words of one sample, in the order of the fragments' lanes.
+    /// The indices of the fragments' first words in an attachment, if they are pixels anywhere.
+    #[inline(always)]
+    pub(crate) fn indices<S: Lanes>(&self, s: S, layout: PacketLayout) -> u32x16<S> {
+        match self {
+            Self::Pixels(places) => pixel_indices(s, places, layout.line(1, 0, 0), 0),
+            _ => u32x16::splat(s, 0),
+        }
+    }
+
+    /// The words of one sample's texels, in the order of the fragments' lanes, given the
+    /// [indices](Self::indices).
     #[inline(always)]
     pub(crate) fn load<S: Lanes>(
         &self,
         s: S,
         stored: &[[u32; LANES]],
-        layout: PacketLayout,
-        [sample, word]: [usize; 2],
-    ) -> u32x16<S> {
+        (layout, sample): (PacketLayout, usize),
+        indices: u32x16<S>,
+    ) -> Texels<S> {
+        let mut words = [<u32x16<S> as SimdBase<S>>::splat(s, 0); MAX_WORDS];
         match *self {
             Self::Packet(packet) => {
-                let line = layout.line(usize::from(packet), sample, word);
-                u32x16::load_array_ref(s, &stored[line])
+                let first = layout.line(usize::from(packet), sample, 0);
+                for (word, line) in words.iter_mut().zip(&stored[first..][..layout.words]) {
+                    *word = u32x16::load_array_ref(s, line);
+                }
             }
             Self::Quads(ref places) => {
-                let quad = |place: u16| {
-                    let (packet, lanes) = packet_and_lanes(place);
-                    u32x4::from_slice(s, &stored[layout.line(packet, sample, word)][lanes])
-                };
-                let [a, b, c, d] = [
-                    quad(places[0]),
-                    quad(places[1]),
-                    quad(places[2]),
-                    quad(places[3]),
-                ];
-                s.combine_u32x8(s.combine_u32x4(a, b), s.combine_u32x4(c, d))
+                for (number, word) in words.iter_mut().enumerate().take(layout.words) {
+                    let quad = |place: u16| {
+                        let (packet, lanes) = packet_and_lanes(place);
+                        u32x4::from_slice(s, &stored[layout.line(packet, sample, number)][lanes])
+                    };
+                    let [a, b, c, d] = [
+                        quad(places[0]),
+                        quad(places[1]),
+                        quad(places[2]),
+                        quad(places[3]),
+                    ];
+                    *word = s.combine_u32x8(s.combine_u32x4(a, b), s.combine_u32x4(c, d));
+                }
             }
-            Self::Pixels(ref places) => outline!(s, {
-                let (lines, line) = (layout.line(1, 0, 0), layout.line(0, sample, word));
-                s.gather(stored.as_flattened(), pixel_indices(s, places, lines, line))
+            Self::Pixels(_) => outline!(s, {
+                let stored = stored[layout.line(0, sample, 0)..].as_flattened();
+                match layout.words {
+                    1 => [words[0]] = s.gather_lines(stored, indices),
+                    2 => [words[0], words[1]] = s.gather_lines(stored, indices),
+                    _ => words = s.gather_lines(stored, indices),
+                }
             }),
         }
+        words
     }
 
-    /// Stores the lanes of a mask.
+    /// Stores the lanes of a mask, given the [indices](Self::indices).
     #[inline(always)]
     pub(crate) fn store<S: Lanes>(
         &self,
         s: S,
-        values: MaskedWords<S>,
+        (texels, mask): (&Texels<S>, u16),
         stored: &mut [[u32; LANES]],
-        layout: PacketLayout,
-        [sample, word]: [usize; 2],
+        (layout, sample): (PacketLayout, usize),
+        indices: u32x16<S>,
     ) {
-        let MaskedWords { new, mask } = values;
+        let texels = &texels[..layout.words];
         match *self {
             Self::Packet(packet) => {
-                let line = &mut stored[layout.line(usize::from(packet), sample, word)];
-                let old = u32x16::load_array_ref(s, line);
-                s.mask_from_bits(mask).select(new, old).store_array(line);
+                let first = layout.line(usize::from(packet), sample, 0);
+                let mask = s.mask_from_bits(mask);
+                for (new, line) in texels.iter().zip(&mut stored[first..][..layout.words]) {
+                    let old = u32x16::load_array_ref(s, line);
+                    mask.select(*new, old).store_array(line);
+                }
             }
             // Two quads of one place may hold different lanes, so each is stored over what is there
             // by then.
             Self::Quads(ref places) => {
-                let new = new.to_array();
-                for (quad, &place) in places.iter().enumerate() {
-                    let masks = &QUAD_MASKS[usize::from(mask >> (quad * QUAD)) % 16];
-                    if masks == &QUAD_MASKS[0] {
-                        continue;
+                for (word, new) in texels.iter().enumerate() {
+                    let new = new.to_array();
+                    for (quad, &place) in places.iter().enumerate() {
+                        let masks = &QUAD_MASKS[usize::from(mask >> (quad * QUAD)) % 16];
+                        if masks == &QUAD_MASKS[0] {
+                            continue;
+                        }
+                        let (packet, lanes) = packet_and_lanes(place);
+                        let to = &mut stored[layout.line(packet, sample, word)][lanes];
+                        let new = u32x4::from_slice(s, &new[quad * QUAD..][..QUAD]);
+                        let masks = u32x4::load_array_ref(s, masks);
+                        let old = u32x4::from_slice(s, to);
+                        ((old & !masks) | (new & masks)).store_slice(to);
                     }
-                    let (packet, lanes) = packet_and_lanes(place);
-                    let to = &mut stored[layout.line(packet, sample, word)][lanes];
-                    let new = u32x4::from_slice(s, &new[quad * QUAD..][..QUAD]);
-                    let masks = u32x4::load_array_ref(s, masks);
-                    let old = u32x4::from_slice(s, to);
-                    ((old & !masks) | (new & masks)).store_slice(to);
                 }
             }
-            Self::Pixels(ref places) => outline!(s, {
-                let (lines, line) = (layout.line(1, 0, 0), layout.line(0, sample, word));
-                let indices = pixel_indices(s, places, lines, line);
-                s.scatter(stored.as_flattened_mut(), indices, new, mask);
+            Self::Pixels(_) => outline!(s, {
+                let stored = stored[layout.line(0, sample, 0)..].as_flattened_mut();
+                match *texels {
+                    [a] => s.scatter_lines(stored, indices, [a], mask),
+                    [a, b] => s.scatter_lines(stored, indices, [a, b], mask),
+                    _ => {
+                        for (word, &texels) in texels.iter().enumerate() {
+                            let stored = &mut stored[word * LANES..];
+                            s.scatter(stored, indices, texels, mask);
+                        }
+                    }
+                }
             }),
         }
     }
@@ -329,12 +363,8 @@ impl Place {
     }
 }
 
-/// Words to store in the lanes of a mask.
-#[derive(Clone, Copy)]
-pub(crate) struct MaskedWords<S: Lanes> {
-    pub(crate) new: u32x16<S>,
-    pub(crate) mask: u16,
-}
+/// Words of sixteen texels, of which a format uses the first.
+pub(crate) type Texels<S> = [u32x16<S>; MAX_WORDS];
 
 /// For each mask of four lanes, all bits of the lanes that it has.
 const QUAD_MASKS: [[u32; QUAD]; 16] = {

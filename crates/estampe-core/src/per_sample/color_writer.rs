@@ -15,7 +15,7 @@ use super::blend::{
     AnyBlend, AnyEquation, BlendInputs, BlendKernel, ColorLanes, CommonOver, Replace,
 };
 use super::logic::combine;
-use crate::fragment::place::{MaskedWords, PacketLayout, Place};
+use crate::fragment::place::{PacketLayout, Place};
 use crate::fragment::queue::ShadedBatch;
 use crate::pipeline::color_target::{ColorTarget, Equation, MAX_WORDS};
 use estampe_format::attachment::Family;
@@ -226,6 +226,7 @@ impl<C: Copy> Target<'_, C> {
                     }
                 }
             }
+            let indices = packet.place.indices(s, layout);
             let mut encoded = None;
             for (sample, &mask) in packet.masks.iter().enumerate() {
                 if mask == 0 {
@@ -233,9 +234,7 @@ impl<C: Copy> Target<'_, C> {
                 }
                 let mut old = [zero; MAX_WORDS];
                 if reads_stored {
-                    for (word, old) in old.iter_mut().enumerate().take(layout.words) {
-                        *old = packet.place.load(s, stored, layout, [sample, word]);
-                    }
+                    old = packet.place.load(s, stored, (layout, sample), indices);
                 }
                 // All samples are replaced by the same texel.
                 let mut new = match encoded {
@@ -249,12 +248,10 @@ impl<C: Copy> Target<'_, C> {
                 };
                 encoded = Some(new);
                 self.mask_words(s, &mut new, &old);
-                for (word, &new) in new.iter().enumerate().take(layout.words) {
-                    let values = MaskedWords { new, mask };
-                    packet
-                        .place
-                        .store(s, values, stored, layout, [sample, word]);
-                }
+                let texels = (&new, mask);
+                packet
+                    .place
+                    .store(s, texels, stored, (layout, sample), indices);
             }
         }
     }

@@ -11,6 +11,8 @@ mod choice;
 #[cfg(target_arch = "x86_64")]
 mod fours;
 #[cfg(target_arch = "x86_64")]
+mod lines;
+#[cfg(target_arch = "x86_64")]
 mod pairs;
 #[cfg(target_arch = "x86_64")]
 mod registers;
@@ -74,6 +76,16 @@ pub fn floats_of(words: &[Packet<u32>]) -> &[Packet<f32>] {
 pub fn words_of(floats: &[Packet<f32>]) -> &[Packet<u32>] {
     // SAFETY: as in `floats_of`, the other way round.
     unsafe { std::slice::from_raw_parts(floats.as_ptr().cast(), floats.len()) }
+}
+
+/// The bits of all values of packets, one after the other, to gather from.
+#[inline(always)]
+#[must_use]
+#[expect(unsafe_code, reason = "safe transmutation is not stable")]
+pub fn bits_of_packets(packets: &[Packet<f32>]) -> &[u32] {
+    // SAFETY: as in `bits_of`: a packet is sixteen values of f32 without padding, and the result
+    // borrows as many bytes as the argument.
+    unsafe { std::slice::from_raw_parts(packets.as_ptr().cast(), packets.len() * LANES) }
 }
 
 /// Packets of words as packets of the signed integers that have these bits.
@@ -197,30 +209,13 @@ pub(crate) fn scatter_by_lane<S: Simd>(
     }
 }
 
-/// [`Lanes::scatter`](crate::Lanes::scatter) of values in memory. The function is not inlined, as
-/// the compiler would then take lane by lane out of registers, which is two operations each.
-#[cfg(target_arch = "x86_64")]
-#[inline(never)]
-pub(crate) fn scatter_in_memory(
-    table: &mut [u32],
-    index: &[u32; LANES],
-    values: &[u32; LANES],
-    lanes: u16,
-) {
-    for (lane, (&at, &value)) in index.iter().zip(values).enumerate() {
-        // As in `scatter_by_lane`.
-        if let Some(to) = table.get_mut(at as usize) {
-            *to = select_unpredictable(lanes >> lane & 1 == 1, value, *to);
-        }
-    }
-}
-
 #[cfg(target_arch = "x86_64")]
 pub use choice::SquareLoads;
 #[cfg(target_arch = "x86_64")]
 pub(crate) use {
     choice::{decide, gathers_avx512, square_avx2, square_avx512},
     fours::{four_avx2, four_avx512, four_sse2},
+    lines::{gather_lines_avx2, scatter_lines_avx2},
     pairs::pair_avx512,
     single::{avx2, avx512, scatter_avx512},
     squares::{pair_avx2, square_sse2},

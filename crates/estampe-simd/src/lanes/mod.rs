@@ -91,12 +91,47 @@ pub trait Lanes: Simd {
     /// table reads as zeros.
     fn gather(self, table: &[u32], index: u32x16<Self>) -> u32x16<Self>;
 
+    /// `table[index]`, and the words that are [`LANES`](crate::LANES) elements further, up to `N`
+    /// words of each lane. If any of them is beyond the end, others are read; a table that is too
+    /// short for any reads as zeros.
+    #[inline(always)]
+    fn gather_lines<const N: usize>(self, table: &[u32], index: u32x16<Self>) -> [u32x16<Self>; N] {
+        let mut words = [u32x16::splat(self, 0); N];
+        let mut line = 0;
+        while line < N {
+            if let Some(table) = table.get(line * crate::LANES..) {
+                words[line] = self.gather(table, index);
+            }
+            line += 1;
+        }
+        words
+    }
+
     /// Stores the lanes of a mask: `table[index] = value`, lane by lane, so that of equal indices
     /// the last one counts. Lanes whose index is beyond the table are left out; elements from 2³¹
     /// on are not reachable.
     #[inline(always)]
     fn scatter(self, table: &mut [u32], index: u32x16<Self>, values: u32x16<Self>, lanes: u16) {
         crate::gather::scatter_by_lane(table, index, values, lanes);
+    }
+
+    /// [`scatter`](Self::scatter) of `N` words of each lane, which are [`LANES`](crate::LANES)
+    /// elements apart.
+    #[inline(always)]
+    fn scatter_lines<const N: usize>(
+        self,
+        table: &mut [u32],
+        index: u32x16<Self>,
+        values: [u32x16<Self>; N],
+        lanes: u16,
+    ) {
+        let mut line = 0;
+        while line < N {
+            if let Some(table) = table.get_mut(line * crate::LANES..) {
+                self.scatter(table, index, values[line], lanes);
+            }
+            line += 1;
+        }
     }
 
     /// `table[index]` in each lane, for an index below 256; for any other index, some element.

@@ -165,6 +165,10 @@ impl Lanes for Avx2 {
         crate::gather::avx2(self, table, index)
     }
     #[inline(always)]
+    fn gather_lines<const N: usize>(self, table: &[u32], index: u32x16<Self>) -> [u32x16<Self>; N] {
+        crate::gather::gather_lines_avx2(self, table, index)
+    }
+    #[inline(always)]
     fn lookup_sixteen(self, table: &[u32; 16], index: u32x16<Self>) -> u32x16<Self> {
         crate::lookup::sixteen_avx2(self, table, index)
     }
@@ -222,7 +226,17 @@ impl Lanes for Avx2 {
     }
     #[inline(always)]
     fn scatter(self, table: &mut [u32], index: u32x16<Self>, values: u32x16<Self>, lanes: u16) {
-        crate::gather::scatter_in_memory(table, &index.to_array(), &values.to_array(), lanes);
+        crate::gather::scatter_lines_avx2(self, table, index, [values], lanes);
+    }
+    #[inline(always)]
+    fn scatter_lines<const N: usize>(
+        self,
+        table: &mut [u32],
+        index: u32x16<Self>,
+        values: [u32x16<Self>; N],
+        lanes: u16,
+    ) {
+        crate::gather::scatter_lines_avx2(self, table, index, values, lanes);
     }
 }
 

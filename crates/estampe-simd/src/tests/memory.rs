@@ -100,6 +100,77 @@ fn scatter_stores_the_last_of_equal_indices_and_leaves_out_those_beyond() {
     }
 }
 
+/// Words of `N` lines of each lane.
+#[inline(always)]
+fn of_lines<S: Lanes, const N: usize>(
+    s: S,
+    table: &mut [u32],
+    index: [u32; LANES],
+    stored: Option<u16>,
+) -> [[u32; LANES]; N] {
+    let index = u32x16::load_array(s, index);
+    let words = s.gather_lines::<N>(table, index);
+    if let Some(lanes) = stored {
+        let mut new = words;
+        for (new, line) in new.iter_mut().zip(1..) {
+            *new = u32x16::load_array(s, NUMBERS) + line * 100;
+        }
+        s.scatter_lines(table, index, new, lanes);
+    }
+    let mut out = [[0; LANES]; N];
+    for (out, words) in out.iter_mut().zip(words) {
+        *out = words.to_array();
+    }
+    out
+}
+
+#[expect(clippy::cast_possible_truncation, reason = "small numbers")]
+fn check_lines<const N: usize>(level: Level) {
+    // As in an attachment: packets of N lines each.
+    let places = [0, 1, 15, 16, 7, 31, 30, 3, 9, 2, 12, 7, 5, 31, 4, 7];
+    let index = places.map(|place| (place - place % 16) * N as u32 + place % 16);
+    let before: Vec<u32> = (1000..).take(2 * N * LANES).collect();
+    let mut table = before.clone();
+    let words = dispatch!(level, s => of_lines::<_, N>(s, &mut table, index, None));
+    for (line, words) in words.iter().enumerate() {
+        let expected = index.map(|at| before[at as usize + line * LANES]);
+        assert_eq!(words, &expected, "{level:?}, line {line} of {N}");
+    }
+    for lanes in [u16::MAX, 0, 0xA5C3, 0x0410, 1 << 8] {
+        let (mut table, mut expected) = (before.clone(), before.clone());
+        dispatch!(level, s => of_lines::<_, N>(s, &mut table, index, Some(lanes)));
+        for line in 0..N {
+            for (lane, at) in index.into_iter().enumerate() {
+                if lanes >> lane & 1 == 1 {
+                    expected[at as usize + line * LANES] = NUMBERS[lane] + 100 * (line as u32 + 1);
+                }
+            }
+        }
+        assert_eq!(table, expected, "{level:?}, {N} lines of {lanes:#x}");
+    }
+    let beyond = [u32::MAX; LANES];
+    let mut short = vec![1; LANES * N];
+    let words = dispatch!(level, s => of_lines::<_, N>(s, &mut short, beyond, Some(u16::MAX)));
+    assert_eq!(
+        words, [[1; LANES]; N],
+        "{level:?}, an index beyond {N} lines"
+    );
+    assert_eq!(
+        short,
+        vec![1; LANES * N],
+        "{level:?}, nothing is stored beyond {N} lines"
+    );
+}
+
+#[test]
+fn lines_are_as_many_gathers_and_scatters() {
+    for level in Level::all_available() {
+        check_lines::<1>(level);
+        check_lines::<2>(level);
+        check_lines::<4>(level);
+    }
+}
+
 #[inline(always)]
 fn fours<S: Lanes>(s: S, table: &[u32], index: [u32; LANES]) -> [[u32; LANES]; 4] {
     let [a, b, c, d] = s.gather_four(table, u32x16::load_array(s, index));

@@ -129,6 +129,12 @@ impl<const N: usize> InOrder<'_, '_, '_, '_, N> {
             let first = scratch.small.distances(s, pixels, order);
             let new_depths = V::depths(scratch, s, order, pixels.lane());
             let zero = <u32x16<S> as SimdBase<S>>::splat(s, 0);
+            let depths = bits_of(self.job.depth.as_flattened());
+            let stored: [u32x16<S>; N] = if tests {
+                s.gather_lines(depths, indices_of(s, places, [count, 0]))
+            } else {
+                [zero; N]
+            };
             let (mut samples, mut any) = (zero, 0);
             for (sample, depth_at) in depths_at.iter().enumerate().take(count) {
                 let mut mask = listed;
@@ -139,9 +145,7 @@ impl<const N: usize> InOrder<'_, '_, '_, '_, N> {
                     let distances = moved(first, offsets[0], *depth_at);
                     let new = V::depth(&new_depths, s, distances);
                     let new = plan.tests.stored.of(s, new);
-                    let depths = bits_of(self.job.depth.as_flattened());
-                    let stored = s.gather(depths, indices_of(s, places, [count, sample]));
-                    let stored: f32x16<S> = stored.bitcast();
+                    let stored: f32x16<S> = stored[sample].bitcast();
                     let mut stored = stored.to_array();
                     let stored = (!self.job.depth.is_empty()).then_some(&mut stored);
                     mask = if plan.timing == TestTiming::Early {
