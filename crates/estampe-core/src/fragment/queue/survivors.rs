@@ -10,13 +10,17 @@
 //!
 //! They keep their order, and no packet holds a pixel twice. Each kind of value is listed first,
 //! packet after packet, and then taken from the list sixteen by sixteen: no branch depends on how
-//! many are left of a packet, which cannot be predicted.
+//! many are left of a packet, which cannot be predicted. Where a register holds half of a packet,
+//! only where they come from is listed, and their values are gathered: there are fewer packets
+//! after than before, and a list takes two permutations and two stores for each.
 
 use super::{CAPACITY, FragmentQueue};
 use crate::fragment::fill::{lanes_between, masks_of, samples_of};
 use crate::fragment::last_packet::LastPacket;
-use crate::fragment::place::Place;
-use estampe_simd::{Bytes, LANES, Lanes, Packet, Packing, Select, SimdBase, f32x16, u32x16};
+use crate::fragment::place::{Place, indices_of};
+use estampe_simd::{
+    Bytes, LANES, Lanes, Packet, Packing, Select, SimdBase, bits_of_packets, f32x16, u32x16,
+};
 use estampe_types::shader::DepthOutput;
 
 /// Values in a list: those of all fragments of a full queue. Sixteen are written at a time, so
@@ -37,6 +41,10 @@ pub(crate) struct Survivors {
     firsts: [usize; CAPACITY],
     /// How many are left of all.
     len: usize,
+    /// Where they come from: packet·16 + lane, where values are gathered.
+    sources: [u32; ROOM],
+    /// By packet: its pixels, and their samples, where they are gathered from.
+    unlisted: [[u32; LANES]; 2 * CAPACITY],
     /// The pixels where they are, and their samples, one bit each, with [`FRONT`].
     places: [u32; ROOM],
     samples: [u32; ROOM],
@@ -55,6 +63,8 @@ impl Default for Survivors {
             lanes: [0; CAPACITY],
             firsts: [0; CAPACITY],
             len: 0,
+            sources: [0; ROOM],
+            unlisted: [[0; LANES]; 2 * CAPACITY],
             places: [0; ROOM],
             samples: [0; ROOM],
             values: [0.0; ROOM],
@@ -74,17 +84,15 @@ impl Survivors {
         places: &[Place],
         (masks, front): (&[[u16; N]], &[u16]),
     ) {
-        let splat = |value| <u32x16<S> as SimdBase<S>>::splat(s, value);
         let mut len = 0;
         let packets = places.iter().zip(masks).zip(front);
         let lists = self.orders.iter_mut().zip(&mut self.lanes);
         let lists = lists.zip(&mut self.firsts);
         for (((place, masks), front), ((order, lanes), first)) in packets.zip(lists) {
-            *lanes = masks.iter().fold(0, |any, mask| any | mask);
+            *lanes = any_of(masks);
             let packing = Packing::new(s, *lanes);
             packing.store_order(order);
-            let is_front = s.mask_from_bits(*front);
-            let samples = samples_of(s, masks) | is_front.select(splat(FRONT), splat(0));
+            let samples = samples_and_front(s, masks, *front);
             if let Some(to) = sixteen_mut(&mut self.places, len) {
                 packing.store(s, place.pixels(s), to);
             }
@@ -94,6 +102,50 @@ impl Survivors {
             *first = len;
             len += packing.count();
         }
+        self.end_list(len);
+    }
+
+    /// [`Survivors::list`] by gathers.
+    #[inline(always)]
+    fn list_sources<S: Lanes, const N: usize>(
+        &mut self,
+        s: S,
+        places: &[Place],
+        (masks, front): (&[[u16; N]], &[u16]),
+    ) {
+        let mut len = 0;
+        let packets = places.iter().zip(masks).zip(front);
+        let unlisted = self.unlisted.as_chunks_mut().0;
+        for (((place, masks), front), ([pixels, samples], first)) in
+            packets.zip(unlisted.iter_mut().zip((0..).step_by(LANES)))
+        {
+            place.pixels(s).store_array(pixels);
+            samples_and_front(s, masks, *front).store_array(samples);
+            if let Some(to) = sixteen_mut(&mut self.sources, len) {
+                len += s.list_bits(any_of(masks), first, to);
+            }
+        }
+        // Those behind the last one are lanes, too.
+        if let Some(behind) = sixteen_mut(&mut self.sources, len) {
+            *behind = [0; LANES];
+        }
+        for from in (0..len).step_by(LANES) {
+            let sources = u32x16::load_array_ref(s, sixteen(&self.sources, from));
+            let lines = indices_of(s, sources, [2, 0]);
+            let [places, samples] = s.gather_lines(self.unlisted.as_flattened(), lines);
+            if let Some(to) = sixteen_mut(&mut self.places, from) {
+                places.store_array(to);
+            }
+            if let Some(to) = sixteen_mut(&mut self.samples, from) {
+                samples.store_array(to);
+            }
+        }
+        self.end_list(len);
+    }
+
+    /// Notes how many are listed.
+    #[inline(always)]
+    fn end_list(&mut self, len: usize) {
         self.len = len;
         // What lies behind the last one must be pixels of the tile, too.
         if let Some(&last) = self.places.get(len.wrapping_sub(1))
@@ -121,6 +173,9 @@ impl Survivors {
         each: usize,
         [before, after]: [usize; 2],
     ) {
+        if const { S::HAS_WINDOWS } {
+            return self.gather_values(s, packets, each, after);
+        }
         for number in 0..each {
             let packings = self.orders.iter().zip(&self.lanes).take(before);
             let of_packets = packets[number..].iter().step_by(each);
@@ -136,6 +191,58 @@ impl Survivors {
             }
         }
     }
+}
+
+impl Survivors {
+    /// [`Survivors::move_values`] by gathers. Packets are written in order, and each is read before:
+    /// a packet opens one more at most, so none has fragments of packets before its number.
+    #[inline(always)]
+    fn gather_values<S: Lanes>(
+        &self,
+        s: S,
+        packets: &mut [Packet<f32>],
+        each: usize,
+        after: usize,
+    ) {
+        for (number, &begin) in self.begins[..after].iter().enumerate() {
+            let sources = sixteen(&self.sources, begin);
+            debug_assert!(
+                sources[0] as usize / LANES >= number,
+                "values are read first"
+            );
+            let lines = indices_of(s, u32x16::load_array_ref(s, sources), [each, 0]);
+            let (fours, end) = (each / 4 * 4, number * each);
+            for first in (0..fours).step_by(4) {
+                let values = &bits_of_packets(packets)[first * LANES..];
+                let [a, b, c, d] = s.gather_lines(values, lines);
+                if let Some([to_a, to_b, to_c, to_d]) = packets[end + first..].first_chunk_mut() {
+                    for (value, to) in [(a, to_a), (b, to_b), (c, to_c), (d, to_d)] {
+                        let value: f32x16<S> = value.bitcast();
+                        value.store_array(&mut to.0);
+                    }
+                }
+            }
+            for first in fours..each {
+                let values = &bits_of_packets(packets)[first * LANES..];
+                let value: f32x16<S> = s.gather(values, lines).bitcast();
+                value.store_array(&mut packets[end + first].0);
+            }
+        }
+    }
+}
+
+/// The lanes of all samples.
+#[inline(always)]
+fn any_of<const N: usize>(masks: &[u16; N]) -> u16 {
+    masks.iter().fold(0, |any, mask| any | mask)
+}
+
+/// The samples of sixteen fragments, and [`FRONT`].
+#[inline(always)]
+fn samples_and_front<S: Lanes, const N: usize>(s: S, masks: &[u16; N], front: u16) -> u32x16<S> {
+    let splat = |value| <u32x16<S> as SimdBase<S>>::splat(s, value);
+    let is_front = s.mask_from_bits(front);
+    samples_of(s, masks) | is_front.select(splat(FRONT), splat(0))
 }
 
 /// Sixteen values of a list.
@@ -161,8 +268,9 @@ impl<const N: usize> FragmentQueue<N> {
         survivors: &mut Survivors,
     ) -> [u64; 2] {
         let before = self.len.min(CAPACITY);
-        let any = |masks: &[u16; N]| masks.iter().fold(0, |any, mask| any | mask);
-        let counts = self.masks[..before].iter().map(|of| any(of).count_ones());
+        let counts = self.masks[..before]
+            .iter()
+            .map(|of| any_of(of).count_ones());
         let count: u32 = counts.sum();
         if self.color_passthrough || count as usize * 2 > before * LANES {
             return [0; 2];
@@ -172,7 +280,11 @@ impl<const N: usize> FragmentQueue<N> {
             "packets share no colours"
         );
         let fragments = (&self.masks[..before], &self.front_facing[..before]);
-        survivors.list(s, &self.places[..before], fragments);
+        if const { S::HAS_WINDOWS } {
+            survivors.list_sources(s, &self.places[..before], fragments);
+        } else {
+            survivors.list(s, &self.places[..before], fragments);
+        }
         let (mut after, mut from) = (0, 0);
         while from < survivors.len {
             debug_assert!(after < before, "a packet opens one more at most");
