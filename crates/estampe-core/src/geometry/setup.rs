@@ -22,7 +22,8 @@ use crate::bounds::primitives::{VertexRef, WindowVertex};
 use crate::bounds::transpose::components_of;
 use crate::bounds::triangle_edges::TriangleEdges;
 use estampe_simd::{
-    Bytes, LANES, Lanes, Level, Select, SimdBase, dispatch, f32x16, i32x16, outline, u32x16,
+    Bytes, LANES, Lanes, Level, Select, SimdBase, bits_of, dispatch, f32x16, i32x16, outline,
+    u32x16,
 };
 
 /// Memory of one worker.
@@ -196,6 +197,9 @@ impl<'a> Setup<'a> {
         let [v0, v1, v2] = [0, 1, 2].map(|corner| first_half(&waiting.vertex[corner]));
         let first = u32x16::load_array_ref(s, first_half(&waiting.first_vertex));
         let live = u16::MAX >> (LANES - len);
+        if const { !S::IS_SCALAR } && self.plan.draws_one_by_one && self.plan.joins_rectangles {
+            self.prefetch_varyings(s, [v0, v2]);
+        }
         let [x0, y0, z0, w0] = self.read(s, v0, first, live);
         let [x1, y1, z1, w1] = self.read(s, v1, first, live);
         let [x2, y2, z2, w2] = self.read(s, v2, first, live);
@@ -262,6 +266,17 @@ impl<'a> Setup<'a> {
         }
         let positions = [[x0, x1, x2], [y0, y1, y2]];
         bin_packet(s, self.plan, positions, pairs, self.chunk);
+    }
+
+    /// Prefetches the varyings that tell which triangles make rectangles: those of their first and
+    /// their last vertices, which each other one is near.
+    #[inline(always)]
+    fn prefetch_varyings<S: Lanes>(&self, s: S, vertices: [&[u32; LANES]; 2]) {
+        let scalars = <u32x16<S> as SimdBase<S>>::splat(s, number(self.varying_scalars));
+        for vertices in vertices {
+            let vertices = u32x16::load_array_ref(s, vertices);
+            s.prefetch_elements(bits_of(self.varyings), vertices * scalars);
+        }
     }
 
     /// The lanes of the last packet whose triangle makes a rectangle with the next one.
