@@ -40,7 +40,7 @@ impl Group {
             }
             if each == 1
                 && lod != PacketLod::Gradients
-                && first.sample_shifted(lod, &places, &TapShifts::UNSHIFTED, texels)
+                && first.sample_shifted(lod, &places, (&TapShifts::UNSHIFTED, true), texels)
             {
                 return;
             }

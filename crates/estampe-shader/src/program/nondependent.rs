@@ -145,7 +145,26 @@ impl Reads {
         tree.body = with_inputs(&mut tree.interface, body, &numbers);
         passes::dead_code(tree);
         passes::unused_inputs(tree);
+        reads.note_alpha(&tree.interface.inputs);
         reads
+    }
+
+    /// Notes of which filters the last channel is read, given the inputs that are used.
+    fn note_alpha(&mut self, inputs: &[Input]) {
+        let before = self.groups.len();
+        for filter in &mut self.filters {
+            filter.reads_alpha = false;
+        }
+        for input in inputs {
+            if let Input::TextureRead { read, component } = input
+                && *component as usize == CHANNELS - 1
+                && let Some((span, _)) = self.of_read.get(*read as usize)
+                && let Some(filter) = span.checked_sub(before)
+                && let Some(filter) = self.filters.get_mut(filter)
+            {
+                filter.reads_alpha = true;
+            }
+        }
     }
 
     /// Adds the spans; returns the number of the first read of each.
@@ -196,6 +215,7 @@ impl Reads {
                 place: read.place.clone(),
                 texture: read.texture,
                 shifts: Vec::new(),
+                reads_alpha: true,
             });
             self.filters.len() - 1
         });

@@ -108,6 +108,8 @@ pub(super) struct Filter {
     pub(super) texture: [u32; 2],
     /// Of each tap.
     pub(super) shifts: Vec<[Shift<usize>; 2]>,
+    /// True if the last channel of a tap is read.
+    pub(super) reads_alpha: bool,
 }
 
 impl Filter {
@@ -135,7 +137,7 @@ impl Filter {
             *known = TapShifts::new(amounts);
         }
         if let Some((places, lod)) = self.place.flat(scalars, stride)
-            && texture.sample_shifted(lod, &places, known, texels)
+            && texture.sample_shifted(lod, &places, (known, self.reads_alpha), texels)
         {
             return;
         }

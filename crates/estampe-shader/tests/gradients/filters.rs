@@ -6,10 +6,11 @@ use super::running::{Textures, samplers};
 use estampe_shader::program::TextProgram;
 use estampe_simd::{LANE_X, LANE_Y, LANES, Level, Packet};
 use estampe_texture::{AddressMode, SamplerDescriptor};
+use estampe_types::morton::compact;
 use estampe_types::{Bindings, FragmentBatch, Program};
 
 /// Statements that sample, with `AT` for the varying, and how many samples they are.
-const FILTERS: [(usize, &str); 7] = [
+const FILTERS: [(usize, &str); 8] = [
     (
         5,
         "let step = vec2f(1.0, 0.0) / vec2f(textureDimensions(halves));
@@ -27,6 +28,13 @@ const FILTERS: [(usize, &str); 7] = [
                 sum += textureSampleLevel(halves, s, AT + step * vec2f(x, y), 0.0);
             }
         }",
+    ),
+    // Without the last channel.
+    (
+        2,
+        "let step = 0.7 / vec2f(textureDimensions(halves));
+        sum += vec4f(textureSampleLevel(halves, s, AT + step, 0.0).rgb
+            + textureSampleLevel(halves, s, AT - step, 0.0).rgb, 1.0);",
     ),
     // From a buffer, before the varying.
     (
@@ -63,7 +71,8 @@ const FILTERS: [(usize, &str); 7] = [
     ),
 ];
 
-/// The colours of packets that stand in columns and rows, and of some that do not.
+/// The colours of packets that stand in columns and rows, first of a square of them, and of some
+/// that do not.
 fn colors(program: &TextProgram, (level, bindings): (Level, &Bindings)) -> Vec<Packet<u32>> {
     const PACKETS: usize = 37;
     let random = &mut fastrand::Rng::with_seed(11);
@@ -73,10 +82,17 @@ fn colors(program: &TextProgram, (level, bindings): (Level, &Bindings)) -> Vec<P
         for scalar in &mut *packet {
             scalar.0 = [random.f32(); LANES];
         }
-        let step = [1.0, 2.0, 0.5, 0.07][number % 4] / 64.0;
+        let square = u32::try_from(number).ok().filter(|number| *number < 16);
+        let step = square.map_or([1.0, 2.0, 0.5, 0.07][number % 4], |_| 1.0) / 64.0;
         for (axis, lanes) in [(0, LANE_X), (1, LANE_Y)] {
-            let first = random.f32() * 1.2 - 0.1;
+            let random = random.f32() * 1.2 - 0.1;
+            let first = square.map_or(random, |number| {
+                0.3 + (4 * compact(number >> axis)) as f32 * step
+            });
             packet[axis].0 = lanes.map(|at| first + f32::from(at) * step);
+        }
+        if square.is_some() {
+            continue;
         }
         packet[number % 2].0[9] += f32::from(u8::from(number % 5 == 4)) * 0.01;
     }

@@ -318,14 +318,14 @@ impl SampledTexture {
     /// The colours at several shifts from one place in each packet of a batch, as
     /// [`sample_each`](Self::sample_each) gives them; a shift is added to each coordinate, and of
     /// each packet there are as many colours as shifts. [Gradients](PacketPlaces::gradients) do not
-    /// count. False, with nothing stored, if the texture is not of half floats, another level than
+    /// count. Unless `reads_alpha`, the last channel of a colour may be anything. False, with nothing stored, if the texture is not of half floats, another level than
     /// the finest may count, or there are no shifts.
     #[must_use]
     pub fn sample_shifted(
         &self,
         lod: PacketLod,
         places: &PacketPlaces<'_>,
-        shifts: &TapShifts,
+        (shifts, reads_alpha): (&TapShifts, bool),
         colors: &mut [Colors],
     ) -> bool {
         let each = shifts.of_taps().len();
@@ -334,7 +334,10 @@ impl SampledTexture {
         }
         let batches = places.chunks(MOST_TAPS);
         for (places, colors) in batches.zip(colors.chunks_mut(MOST_TAPS * each)) {
-            let others = self.sample_filter(&places, shifts, colors);
+            let others = self.sample_filter(&places, (shifts, reads_alpha), colors);
+            if others.iter().all(|taps| *taps == 0) {
+                continue;
+            }
             let packets = places.each().zip(colors.chunks_mut(each));
             for (others, (uv, colors)) in others.into_iter().zip(packets) {
                 if others != 0 {

@@ -387,7 +387,7 @@ fn shifted_samples_are_those_at_shifted_coordinates() {
                 let places = places_of(&packets);
                 let mut together = vec![Colors::default(); packets.len() * filter.len()];
                 let (lod, shifts) = (PacketLod::Level, TapShifts::new(filter));
-                assert!(texture.sample_shifted(lod, &places, &shifts, &mut together));
+                assert!(texture.sample_shifted(lod, &places, (&shifts, true), &mut together));
                 let alone = each_tap(&texture, &packets, filter);
                 for (together, alone) in together.iter().zip(&alone) {
                     assert_eq!(numbers(together), numbers(alone), "{level:?} {scale}");
@@ -414,7 +414,7 @@ fn shifted_samples_of_other_textures_are_left_to_requests() {
     let mut colors = vec![Colors::default(); 16];
     let mut sample = |texture: &SampledTexture, lod, taps| {
         let shifts = TapShifts::new(&[[0.5, 0.0]; 17][..taps]);
-        texture.sample_shifted(lod, &places, &shifts, &mut colors[..taps.min(16)])
+        texture.sample_shifted(lod, &places, (&shifts, true), &mut colors[..taps.min(16)])
     };
     assert!(!sample(&bytes, PacketLod::Level, 1));
     assert!(!sample(&halves, PacketLod::Implicit, 1));

@@ -75,8 +75,10 @@ fn filters() -> Vec<Vec<[f32; 2]>> {
 #[test]
 fn squares_are_sampled_as_each_tap_alone() {
     let random = &mut Random::new(53);
-    // The squares of each level that filters blocks.
+    // The squares of each level that filters blocks, and those of them that are filtered channel by
+    // channel.
     let mut squares = BTreeMap::new();
+    let mut planes = 0;
     let mut cases = 0;
     let modes = [
         AddressMode::ClampToEdge,
@@ -110,7 +112,12 @@ fn squares_are_sampled_as_each_tap_alone() {
             let places = places_of(&packets);
             let shifts = TapShifts::new(filter);
             let mut together = vec![Colors::default(); 16 * filter.len()];
-            assert!(texture.sample_shifted(PacketLod::Level, &places, &shifts, &mut together));
+            assert!(texture.sample_shifted(
+                PacketLod::Level,
+                &places,
+                (&shifts, true),
+                &mut together
+            ));
             let alone = each_tap(&texture, &packets, filter);
             for (together, alone) in together.iter().zip(&alone) {
                 assert_eq!(
@@ -119,6 +126,17 @@ fn squares_are_sampled_as_each_tap_alone() {
                     "{level:?} {mode:?} {step}"
                 );
             }
+            let mut colors = vec![[Packet([-7.0; LANES]); 4]; 16 * filter.len()];
+            let of = (&shifts, false);
+            assert!(texture.sample_shifted(PacketLod::Level, &places, of, &mut colors));
+            for (colors, alone) in colors.iter().zip(&alone) {
+                assert_eq!(numbers(&colors[..3]), numbers(&alone[..3]), "{level:?}");
+            }
+            planes += u32::from(
+                colors
+                    .iter()
+                    .all(|[_, _, _, alpha]| alpha.0 == [-7.0; LANES]),
+            );
             let found = texture.filters_a_square(&places, &shifts);
             // The texture has fewer rows than a square may read.
             assert_eq!(found, has_blocks && is_square, "{level:?}");
@@ -128,6 +146,8 @@ fn squares_are_sampled_as_each_tap_alone() {
             cases += 1;
         }
     }
+    let by_planes = squares.contains_key("avx2");
+    assert_eq!(planes > 10, by_planes, "{planes} squares");
     for (level, count) in squares {
         assert!(count > 50, "{count} squares at {level}");
     }

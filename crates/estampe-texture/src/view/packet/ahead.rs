@@ -102,10 +102,26 @@ impl<'a> Ahead<'a> {
         let rows = self.rows_of_packet.min(self.rows);
         self.rows -= rows;
         for _ in 0..rows {
-            let lines = self.texels.iter().step_by(LINE).take(self.lines);
-            lines.for_each(|word| s.prefetch(word));
-            self.texels = self.texels.get(self.row_words..).unwrap_or_default();
+            self.prefetch_row(s);
         }
+    }
+
+    /// Prefetches a row. False if none is left.
+    #[inline(always)]
+    pub(super) fn row<S: Lanes>(&mut self, s: S) -> bool {
+        if self.rows == 0 {
+            return false;
+        }
+        self.rows -= 1;
+        self.prefetch_row(s);
+        true
+    }
+
+    #[inline(always)]
+    fn prefetch_row<S: Lanes>(&mut self, s: S) {
+        let lines = self.texels.iter().step_by(LINE).take(self.lines);
+        lines.for_each(|word| s.prefetch(word));
+        self.texels = self.texels.get(self.row_words..).unwrap_or_default();
     }
 }
 

@@ -308,7 +308,7 @@ impl<'a, S: SimdLanes> BlockLevel<'a, S> {
 
     /// The words from a texel on; `None` if it is not in memory.
     #[inline(always)]
-    fn texels_from(&self, column: i32, row: i32) -> Option<&[u32]> {
+    pub(super) fn texels_from(&self, column: i32, row: i32) -> Option<&[u32]> {
         let before = row.cast_unsigned() as usize * self.row_words;
         let before = before + column.cast_unsigned() as usize * WORDS;
         self.texels.get(self.begin + before..)

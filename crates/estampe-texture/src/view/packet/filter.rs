@@ -12,6 +12,7 @@
 
 use super::ahead::Ahead;
 use super::block::{BlockLevel, Footprint, Spot, columns_and_rows};
+use super::planes::Planes;
 use super::shifts::TapShifts;
 use super::square::{PACKETS, SquareLines, SquarePlaces};
 use super::taps::{Lines, MOST_LINES, MOST_TAPS, all_of};
@@ -36,6 +37,7 @@ thread_local! {
             lines: [Values([0.0; LANES]); MOST_LINES + 1],
             square: SquarePlaces::NONE,
             square_lines: SquareLines::NONE,
+            planes: Planes::NONE,
         })
     };
 }
@@ -49,6 +51,7 @@ struct Places {
     lines: [Values<f32>; MOST_LINES + 1],
     square: SquarePlaces,
     square_lines: SquareLines,
+    planes: Planes,
 }
 
 const _: () = assert!(PACKETS == MOST_TAPS, "a square is a batch");
@@ -66,7 +69,7 @@ impl SampledTexture {
         let mut colors = vec![Answers::default(); MOST_TAPS * shifts.of_taps().len()];
         let others = |places: PacketPlaces<'_>| {
             let count = places.each().count();
-            let others = self.sample_filter(&places, shifts, &mut colors);
+            let others = self.sample_filter(&places, (shifts, true), &mut colors);
             let others = others[..count]
                 .iter()
                 .map(|taps| taps.count_ones() as usize);
@@ -82,12 +85,13 @@ impl SampledTexture {
     pub fn filters_a_square(&self, places: &PacketPlaces<'_>, shifts: &TapShifts) -> bool {
         let mut colors = vec![Answers::default(); PACKETS * shifts.of_taps().len()];
         let (mut square, mut lines) = (SquarePlaces::NONE, SquareLines::NONE);
+        let mut planes = Planes::NONE;
         dispatch!(@specialized_move self.level, s => {
             let Some(level) = BlockLevel::new(s, self, &self.view.planes[0]) else {
                 return false;
             };
-            let (of, mut ahead) = ((places, shifts), Ahead::default());
-            let memory = (&mut square, &mut lines);
+            let (of, mut ahead) = ((places, shifts, true), Ahead::default());
+            let memory = (&mut square, &mut lines, &mut planes);
             let others = level.filter_square::<false>(s, of, memory, &mut ahead, &mut colors);
             places.each().count() == PACKETS && others.is_some()
         }, others => false)
@@ -99,7 +103,7 @@ impl SampledTexture {
     pub(in crate::view) fn sample_filter(
         &self,
         places: &PacketPlaces<'_>,
-        shifts: &TapShifts,
+        (shifts, reads_alpha): (&TapShifts, bool),
         colors: &mut [Answers],
     ) -> OtherTaps {
         let all = [all_of(shifts.of_taps().len()); MOST_TAPS];
@@ -108,7 +112,7 @@ impl SampledTexture {
                 let Some(level) = BlockLevel::new(s, self, &self.view.planes[0]) else {
                     return all;
                 };
-                let of = (&level, shifts, memory);
+                let of = (&level, (shifts, reads_alpha), memory);
                 // Clamping is most common, and needs few of the constants that wrapping does.
                 if level.mode == AddressMode::ClampToEdge {
                     self.sample_packets_filtered::<_, true>(s, of, places, colors)
@@ -124,7 +128,11 @@ impl SampledTexture {
     fn sample_packets_filtered<S: SimdLanes, const CLAMPS: bool>(
         &self,
         s: S,
-        (level, shifts, memory): (&BlockLevel<'_, S>, &TapShifts, &mut Places),
+        (level, (shifts, reads_alpha), memory): (
+            &BlockLevel<'_, S>,
+            (&TapShifts, bool),
+            &mut Places,
+        ),
         places: &PacketPlaces<'_>,
         colors: &mut [Answers],
     ) -> OtherTaps {
@@ -135,6 +143,7 @@ impl SampledTexture {
             lines,
             square,
             square_lines,
+            planes,
         } = memory;
         let taps = shifts.of_taps().len();
         let mut ahead = Ahead::default();
@@ -143,7 +152,8 @@ impl SampledTexture {
         {
             let plane = &self.view.planes[0];
             ahead = Ahead::new(level.rows(), plane, uv, shifts);
-            let (of, memory) = ((places, shifts), (square, square_lines));
+            let of = (places, shifts, reads_alpha);
+            let memory = (square, square_lines, planes);
             if let Some(others) = level.filter_square::<CLAMPS>(s, of, memory, &mut ahead, colors) {
                 return others;
             }

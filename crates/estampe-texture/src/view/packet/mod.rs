@@ -21,6 +21,7 @@ mod filter;
 mod footprint;
 mod inside;
 mod places;
+mod planes;
 mod shifts;
 mod square;
 mod taps;

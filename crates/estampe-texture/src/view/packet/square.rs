@@ -10,6 +10,7 @@
 use super::ahead::Ahead;
 use super::block::{BlockLevel, Footprint, Spot, columns_and_rows};
 use super::filter::{COLUMNS, Found, OtherTaps, ROWS};
+use super::planes::Planes;
 use super::shifts::TapShifts;
 use super::taps::{Lines, MOST_TAPS};
 use crate::PacketPlaces;
@@ -18,16 +19,16 @@ use estampe_simd::{LANES, Lanes as SimdLanes, Packet as Values, SimdBase, f32x16
 use estampe_types::morton::spread;
 
 /// The packets along a side of a square, and all.
-const SIDE: usize = 4;
+pub(super) const SIDE: usize = 4;
 pub(super) const PACKETS: usize = SIDE * SIDE;
 
 /// The rows of texels of a square are fewer: a power of two. In memory there is room for four more,
 /// so that no line needs a test.
-const MOST_LINES: usize = 64;
+pub(super) const MOST_LINES: usize = 64;
 
 /// The number of each packet: by row, then by column.
 #[expect(clippy::cast_possible_truncation, reason = "numbers of packets")]
-const NUMBERS: [[usize; SIDE]; SIDE] = {
+pub(super) const NUMBERS: [[usize; SIDE]; SIDE] = {
     let mut numbers = [[0; SIDE]; SIDE];
     let mut at = 0;
     while at < PACKETS {
@@ -43,10 +44,10 @@ pub(super) struct SquarePlaces {
     /// The coordinates of each packet's columns and rows.
     of_packets: [Values<f32>; PACKETS],
     /// The columns and rows of the packets of the diagonal, at each shift.
-    spots: [[Spot; MOST_TAPS]; SIDE],
+    pub(super) spots: [[Spot; MOST_TAPS]; SIDE],
     found: [Found; SIDE],
     /// The first and the last of the upper rows of texels that their rows are in.
-    rows: [[[i32; 2]; MOST_TAPS]; SIDE],
+    pub(super) rows: [[[i32; 2]; MOST_TAPS]; SIDE],
 }
 
 /// Rows of texels of a square, filtered along x: memory that a square need not clear.
@@ -72,8 +73,8 @@ impl<S: SimdLanes> BlockLevel<'_, S> {
     pub(super) fn filter_square<const CLAMPS: bool>(
         &self,
         s: S,
-        (places, shifts): (&PacketPlaces<'_>, &TapShifts),
-        (square, lines): (&mut SquarePlaces, &mut SquareLines),
+        (places, shifts, reads_alpha): (&PacketPlaces<'_>, &TapShifts, bool),
+        (square, lines, planes): (&mut SquarePlaces, &mut SquareLines, &mut Planes),
         ahead: &mut Ahead<'_>,
         colors: &mut [Answers],
     ) -> Option<OtherTaps> {
@@ -83,6 +84,12 @@ impl<S: SimdLanes> BlockLevel<'_, S> {
             return None;
         }
         let mut others = OtherTaps::default();
+        if const { !S::IN_ONE_REGISTER } && square.found.iter().all(|found| found.is_inside) {
+            let of = (shifts, reads_alpha);
+            if self.filter_planes(s, of, (&*square, planes), ahead, colors) {
+                return Some(others);
+            }
+        }
         for x in 0..SIDE {
             for _ in 0..SIDE {
                 ahead.step(s);
