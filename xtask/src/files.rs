@@ -29,6 +29,7 @@ const UNSAFE_CRATES: &[(&str, &[&str])] = &[
         "crates/estampe-simd",
         &[
             "crates/estampe-simd/src/gather/fours.rs",
+            "crates/estampe-simd/src/gather/lines.rs",
             "crates/estampe-simd/src/gather/mod.rs",
             "crates/estampe-simd/src/gather/pairs.rs",
             "crates/estampe-simd/src/gather/single.rs",

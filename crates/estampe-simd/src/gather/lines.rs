@@ -1,9 +1,9 @@
 //! Words of lines of sixteen words, lane by lane.
 //!
-//! On Zen 3 gathers of sixteen words take 9.2 ns, loads with insertions 5.9, which share each lane's
-//! address among several lines. Of a single line they were slower where much else is computed: with
-//! them in place of all gathers `ui` took 1.05 of its time. Stores go where lanes are, without
-//! asking for each lane whether it is stored.
+//! On Zen 3 gathers of sixteen words take 9.2 ns, loads with insertions 5.9, which share the
+//! address of a lane among several lines. Of a single line they were slower where much else is
+//! computed: with them in place of all gathers `ui` took 1.065 of its time. Stores go where lanes
+//! are, without asking for each lane whether it is stored.
 #![expect(unsafe_code, reason = "a check of each lane's index costs too much")]
 
 use super::last_index;

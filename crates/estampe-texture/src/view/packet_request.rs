@@ -318,8 +318,9 @@ impl SampledTexture {
     /// The colours at several shifts from one place in each packet of a batch, as
     /// [`sample_each`](Self::sample_each) gives them; a shift is added to each coordinate, and of
     /// each packet there are as many colours as shifts. [Gradients](PacketPlaces::gradients) do not
-    /// count. Unless `reads_alpha`, the last channel of a colour may be anything. False, with nothing stored, if the texture is not of half floats, another level than
-    /// the finest may count, or there are no shifts.
+    /// count. Unless `reads_alpha`, the last channel of a colour may be anything. False, with
+    /// nothing stored, if the texture is not of half floats, another level than the finest may
+    /// count, or there are no shifts.
     #[must_use]
     pub fn sample_shifted(
         &self,

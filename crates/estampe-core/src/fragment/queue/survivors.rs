@@ -194,8 +194,9 @@ impl Survivors {
 }
 
 impl Survivors {
-    /// [`Survivors::move_values`] by gathers. Packets are written in order, and each is read before:
-    /// a packet opens one more at most, so none has fragments of packets before its number.
+    /// [`Survivors::move_values`] by gathers. Packets are written in order, each after it was read:
+    /// a packet's pixels differ, so it ends one of those that are filled at most, and none of them
+    /// has fragments of packets before its number.
     #[inline(always)]
     fn gather_values<S: Lanes>(
         &self,
