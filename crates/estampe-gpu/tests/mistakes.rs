@@ -5,7 +5,7 @@
 //! compiler.
 
 #[test]
-#[ignore = "compares with the messages of Rust 1.95, which other versions word otherwise: `.ci/run` runs it"]
+#[ignore = "compares with the messages of Rust 1.95, which other versions word otherwise: `.ci/release` runs it"]
 fn the_compiler_says_what_to_write_instead() {
     trybuild::TestCases::new().compile_fail("tests/mistakes/*.rs");
 }

@@ -23,7 +23,8 @@ pub enum Level {
     /// AVX2 (x86-64-v3): 8 lanes per register.
     #[cfg(target_arch = "x86_64")]
     Avx2(Avx2),
-    /// AVX-512 as in Ice Lake and Zen 4: 16 lanes per register.
+    /// AVX-512 as in Ice Lake and Zen 4: 16 lanes per register. A dev build by a processor that
+    /// lacks it has no code of this level.
     #[cfg(target_arch = "x86_64")]
     Avx512(Avx512),
     /// AArch64's baseline: 4 lanes per register.
@@ -133,6 +134,7 @@ impl Level {
         {
             levels.extend(detected.as_sse2().map(Self::Sse2));
             levels.extend(detected.as_avx2().map(Self::Avx2));
+            #[cfg(avx512_level)]
             levels.extend(detected.as_avx512().map(Self::Avx512));
         }
         #[cfg(target_arch = "aarch64")]
@@ -213,7 +215,7 @@ macro_rules! dispatch {
             #[cfg(target_arch = "x86_64")]
             $crate::Level::Avx2(token) => $crate::dispatch!(@enter token, $simd => $op),
             #[cfg(target_arch = "x86_64")]
-            $crate::Level::Avx512(token) => $crate::dispatch!(@enter token, $simd => $op),
+            $crate::Level::Avx512(token) => $crate::dispatch_avx512!(@enter token, $simd => $op),
             #[cfg(target_arch = "aarch64")]
             $crate::Level::Neon(token) => $crate::dispatch!(@enter token, $simd => $op),
             #[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
@@ -249,7 +251,7 @@ macro_rules! dispatch {
             #[cfg(target_arch = "x86_64")]
             $crate::Level::Avx2(token) => $crate::dispatch!(@enter token, $simd => $op),
             #[cfg(target_arch = "x86_64")]
-            $crate::Level::Avx512(token) => $crate::dispatch!(@enter token, $simd => $op),
+            $crate::Level::Avx512(token) => $crate::dispatch_avx512!(@enter token, $simd => $op),
             #[cfg(target_arch = "aarch64")]
             $crate::Level::Neon(token) => $crate::dispatch!(@enter token, $simd => $op),
             #[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
@@ -263,7 +265,7 @@ macro_rules! dispatch {
             #[cfg(target_arch = "x86_64")]
             $crate::Level::Avx2(token) => $crate::dispatch!(@enter_move token, $simd => $op),
             #[cfg(target_arch = "x86_64")]
-            $crate::Level::Avx512(token) => $crate::dispatch!(@enter_move token, $simd => $op),
+            $crate::Level::Avx512(token) => $crate::dispatch_avx512!(@enter_move token, $simd => $op),
             #[cfg(target_arch = "aarch64")]
             $crate::Level::Neon(token) => $crate::dispatch!(@enter_move token, $simd => $op),
             #[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
@@ -321,5 +323,26 @@ macro_rules! dispatch_scalar {
     ($level:expr, $simd:ident => $op:expr) => {{
         let _ = $level;
         ::core::unreachable!("a SIMD level that `dispatch!` does not know")
+    }};
+}
+
+/// The AVX-512 arms of [`dispatch!`].
+#[cfg(avx512_level)]
+#[doc(hidden)]
+#[macro_export]
+macro_rules! dispatch_avx512 {
+    ($($entry:tt)*) => {
+        $crate::dispatch!($($entry)*)
+    };
+}
+
+/// The AVX-512 arms of [`dispatch!`] in builds without this level.
+#[cfg(all(target_arch = "x86_64", not(avx512_level)))]
+#[doc(hidden)]
+#[macro_export]
+macro_rules! dispatch_avx512 {
+    (@$entry:ident $token:ident, $simd:ident => $op:expr) => {{
+        let _ = $token;
+        ::core::unreachable!("a level that this build leaves out")
     }};
 }
