@@ -131,7 +131,7 @@ fn shade(at_a_time: Option<AtATime>, level: Level, count: usize) -> (Vec<u16>, V
 
 #[test]
 fn several_packets_at_a_time_give_the_bits_of_one() {
-    // As the level does: four at a time, then two.
+    // With `None` as the level does: four at a time and then two, two and then one, or one.
     assert!(ShaderProgram::new(StepsTowardsOne).loops_long());
     for count in [0, 1, 2, 4, 5, 11] {
         let expected = shade(Some(AtATime::One), Level::all_available()[0], count);

@@ -84,7 +84,7 @@ impl<S: SimdLanes> BlockLevel<'_, S> {
             return None;
         }
         let mut others = OtherTaps::default();
-        if const { S::REGISTERS > 1 } && square.found.iter().all(|found| found.is_inside) {
+        if const { S::REGISTERS == 2 } && square.found.iter().all(|found| found.is_inside) {
             let of = (shifts, reads_alpha);
             if self.filter_planes(s, of, (&*square, planes), ahead, colors) {
                 return Some(others);
