@@ -14,6 +14,7 @@ use estampe_types::shader::Shader;
 use estampe_types::state::VertexBufferLayout;
 use estampe_types::{Bindings, BufferData, IndexFormat};
 use pass::Pass;
+use std::collections::HashMap;
 use std::ops::Range;
 
 /// The parameters and buffers of a draw.
@@ -105,8 +106,20 @@ pub fn draw_observed(
         return Counts::default();
     };
     for instance in draw.instances.clone() {
+        // Wherever an index names a vertex, its outputs are the same. The map is no larger than the
+        // index buffer; without one, each vertex is named once.
+        let mut of_index: HashMap<u32, ClipVertex> = HashMap::new();
         for run in draw_runs(state, draw) {
-            let shade = |at: u32| shade_vertex(shaders, draw, at, instance);
+            let shade = |at: u32| {
+                let shaded = || shade_vertex(shaders, draw, at, instance);
+                match draw.indices {
+                    Some(_) => {
+                        let vertex = of_index.entry(draw.vertex_index(at));
+                        vertex.or_insert_with(shaded).clone()
+                    }
+                    None => shaded(),
+                }
+            };
             pass.run(&run, instance, shade);
         }
     }

@@ -92,14 +92,14 @@ impl Pass<'_> {
         &mut self,
         run: &Range<u32>,
         instance: u32,
-        shade: impl Fn(u32) -> ClipVertex,
+        mut shade: impl FnMut(u32) -> ClipVertex,
     ) {
         let PrimitiveState {
             topology,
             provoking_vertex: mode,
             ..
         } = self.state.primitive;
-        let shade = |at: u32| shade(run.start + at);
+        let mut shade = |at: u32| shade(run.start + at);
         for (index, primitive) in primitives(topology, run.end - run.start).enumerate() {
             let number = self.counts.primitives;
             self.counts.primitives += 1;
@@ -121,7 +121,7 @@ impl Pass<'_> {
                     }
                 }
                 Primitive::Line(at) => {
-                    let ends = at.map(&shade);
+                    let ends = at.map(&mut shade);
                     observe(&at, &ends);
                     if index == 0 || !is_line_strip(topology) {
                         self.stipple = 0;
@@ -132,7 +132,7 @@ impl Pass<'_> {
                 }
                 Primitive::Triangle(at) => {
                     let at = turned(topology, mode, index, at);
-                    let corners = at.map(&shade);
+                    let corners = at.map(&mut shade);
                     observe(&at, &corners);
                     if !is_distant(&corners) {
                         self.triangle(&corners);
