@@ -107,7 +107,7 @@ pub fn draw_observed(
     };
     for instance in draw.instances.clone() {
         // Wherever an index names a vertex, its outputs are the same. The map is no larger than the
-        // index buffer; without one, each vertex is named once.
+        // index buffer; without one it would grow with the range of vertices, so none are kept.
         let mut of_index: HashMap<u32, ClipVertex> = HashMap::new();
         for run in draw_runs(state, draw) {
             let shade = |at: u32| {
