@@ -70,22 +70,28 @@ pub(crate) fn bin_packet<S: Lanes>(
         let used = u16::MAX >> (LANES - usize::from(last.len).min(LANES)) & !(rectangles << 1);
         let entry = |lanes| BinEntry::Triangles { packet, lanes };
         // Rectangles fill their boxes.
-        let edges = |lane: Lane| {
+        let triangle = |lane: Lane| {
             let misses_none = lane.is_in(rectangles);
-            (!misses_none).then(|| TileEdges::new(last, lane, plan.sample_range))
+            (!misses_none).then_some((last, lane))
         };
-        bin_lanes(s, plan, (&ranges, used), (entry, edges), &mut chunk.bins);
+        bin_lanes(s, plan, (&ranges, used), (entry, triangle), &mut chunk.bins);
     })
 }
 
-/// Bins some primitives of a packet, of which `entry` makes entries. `edges` are those of the one
-/// in a lane, to tell tiles of its box that it misses.
+/// A triangle: its packet and its lane.
+type InPacket<'a> = (&'a TrianglePacket, Lane);
+
+/// Bins some primitives of a packet, of which `entry` makes entries. `triangle` has the one in a
+/// lane, to tell tiles of its box that it misses.
 #[inline(always)]
-fn bin_lanes<S: Lanes>(
+fn bin_lanes<'a, S: Lanes>(
     s: S,
     plan: &GeometryPlan,
     (ranges, used): (&TileRanges<S>, u16),
-    (entry, edges): (impl Fn(u16) -> BinEntry, impl Fn(Lane) -> Option<TileEdges>),
+    (entry, triangle): (
+        impl Fn(u16) -> BinEntry,
+        impl Fn(Lane) -> Option<InPacket<'a>>,
+    ),
     bins: &mut Bins,
 ) {
     bins.end_packet();
@@ -120,17 +126,18 @@ fn bin_lanes<S: Lanes>(
                 x1: lane.of(&right) + 1,
                 y1: lane.of(&bottom) + 1,
             };
-            bin_range(plan, range, entry(lane.bit()), || edges(lane), bins);
+            bin_range(plan, range, entry(lane.bit()), triangle(lane), bins);
         }
     }
 }
 
-/// Bins one primitive of a packet, leaving out tiles of its box that it misses.
+/// Bins one primitive of a packet; if it is a triangle, without the tiles of its box that it
+/// misses.
 fn bin_range(
     plan: &GeometryPlan,
     range: TileRange,
     entry: BinEntry,
-    edges: impl FnOnce() -> Option<TileEdges>,
+    triangle: Option<InPacket<'_>>,
     bins: &mut Bins,
 ) {
     let (columns, rows) = (range.x1 - range.x0, range.y1 - range.y0);
@@ -140,11 +147,9 @@ fn bin_range(
     if many {
         bins.end_packet();
     }
-    let edges = if columns > 1 && rows > 1 {
-        edges()
-    } else {
-        None
-    };
+    let edges = triangle
+        .filter(|_| columns > 1 && rows > 1)
+        .map(|(packet, lane)| TileEdges::new(packet, lane, plan.sample_range));
     let misses = |x, y| {
         let edges = edges.as_ref();
         edges.is_some_and(|edges| edges.miss(x, y, plan.grid.tile_log2()))
@@ -187,7 +192,7 @@ pub(crate) fn push_line(plan: &GeometryPlan, line: &LinePrimitive, chunk: &mut C
     if lane == Lane::new(0) {
         chunk.bins.end_packet();
     }
-    bin_range(plan, range, entry, || None, &mut chunk.bins);
+    bin_range(plan, range, entry, None, &mut chunk.bins);
 }
 
 /// The tiles of sixteen lines.
@@ -204,10 +209,10 @@ impl<S: Lanes> LineTiles<S> {
         let splat = |value: i32| <i32x16<S> as SimdBase<S>>::splat(s, value);
         let (rect, log2) = (plan.rect, plan.grid.tile_log2());
         let reach = plan.line_style.reach();
-        let first = |[a, b]: [i32x16<S>; 2], low: i32| ((a.min(b) - reach) >> 8).max(splat(low));
-        let last = |[a, b]: [i32x16<S>; 2], end: i32| ((a.max(b) + reach) >> 8).min(splat(end - 1));
-        let (x0, x1) = (first(x, rect.x0), last(x, rect.x1));
-        let (y0, y1) = (first(y, rect.y0), last(y, rect.y1));
+        let x0 = ((x[0].min(x[1]) - reach) >> 8).max(splat(rect.x0));
+        let y0 = ((y[0].min(y[1]) - reach) >> 8).max(splat(rect.y0));
+        let x1 = ((x[0].max(x[1]) + reach) >> 8).min(splat(rect.x1 - 1));
+        let y1 = ((y[0].max(y[1]) + reach) >> 8).min(splat(rect.y1 - 1));
         // The sign bit is set if there is no pixel.
         let any = !s.sign_bits((x1 - x0) | (y1 - y0));
         let ranges = TileRanges {

@@ -67,6 +67,7 @@ impl SampleTests {
                 new,
                 lanes,
                 (stored, false),
+                #[inline(always)]
                 |[lanes, nearer], stencil| {
                     let test = self.stencil.as_ref()?;
                     let mut passed = 0;

@@ -126,7 +126,7 @@ impl<const N: usize> SmallBoxes<N> {
         // The box's pixels in the tile: those of which samples may lie in it. Of one sample, those
         // whose centres do.
         let positions = samples.subpixels();
-        let [x_ends, y_ends] = [0, 1].map(|axis| ends(positions.map(|position| position[axis])));
+        let [x_ends, y_ends] = axis_ends(&positions);
         let x_first = ((x_min + (255 - x_ends[1])) >> 8).max(splat(tile.x + rect.x0));
         let y_first = ((y0 + (255 - y_ends[1])) >> 8).max(splat(tile.y + rect.y0));
         // Samples on the right and the lower side of a rectangle are outside.
@@ -447,12 +447,18 @@ pub(super) fn spread<S: Lanes>(s: S, v: u32x16<S>) -> u32x16<S> {
     (v | (v >> 15)) & mask(0xFFF)
 }
 
-/// The least and the greatest.
+/// The least and the greatest x, then y.
 #[inline(always)]
-pub(super) fn ends<const N: usize>(of: [i32; N]) -> [i32; 2] {
-    let first = [of[0]; 2];
-    of.iter()
-        .fold(first, |[least, most], at| [least.min(*at), most.max(*at)])
+pub(super) fn axis_ends<const N: usize>(positions: &[[i32; 2]; N]) -> [[i32; 2]; 2] {
+    let [x, y] = positions[0];
+    let mut ends = [[x; 2], [y; 2]];
+    for position in positions {
+        for ([least, most], at) in ends.iter_mut().zip(*position) {
+            *least = at.min(*least);
+            *most = at.max(*most);
+        }
+    }
+    ends
 }
 
 /// The corners of sixteen triangles.

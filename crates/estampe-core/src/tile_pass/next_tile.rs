@@ -6,7 +6,7 @@
 
 use super::{TileJob, TilePass};
 use crate::attachment::{RowsPlace, TileLines};
-use estampe_simd::{LANES, Lanes};
+use estampe_simd::{LANES, Lanes, outline};
 
 /// The lines of the next tile that are not prefetched yet.
 #[derive(Debug, Default)]
@@ -82,27 +82,37 @@ impl<'a> RowLines<'a> {
         }
     }
 
-    // A function of its own: few passes have rows, and the loops over layers must stay small.
-    #[inline(never)]
+    // Out of line: few passes have rows, and the loops over layers must stay small.
+    #[inline(always)]
     fn step<S: Lanes>(&mut self, s: S, lines: usize) {
-        let lines = lines.min(self.left);
-        self.left -= lines;
-        for _ in 0..lines {
-            while self.row.1 == 0 {
-                if self.lines.rows > 0 {
-                    self.row = (self.lines.address, self.lines.of_row);
-                    self.lines.address += self.lines.row_bytes;
-                    self.lines.rows -= 1;
-                } else if let Some((image, others)) = self.images.split_first() {
-                    (self.lines, self.images) = (image.lines_of_tile(self.origin), others);
-                } else {
+        outline!(s, {
+            let lines = lines.min(self.left);
+            self.left -= lines;
+            for _ in 0..lines {
+                let Some(address) = self.next_line() else {
                     return;
-                }
+                };
+                s.prefetch_address(address);
             }
-            let (address, left) = self.row;
-            s.prefetch_address(address);
-            self.row = (address + LINE_BYTES, left - 1);
+        })
+    }
+
+    /// The address of the next line.
+    #[inline(always)]
+    fn next_line(&mut self) -> Option<usize> {
+        while self.row.1 == 0 {
+            if self.lines.rows > 0 {
+                self.row = (self.lines.address, self.lines.of_row);
+                self.lines.address += self.lines.row_bytes;
+                self.lines.rows -= 1;
+            } else {
+                let (image, others) = self.images.split_first()?;
+                (self.lines, self.images) = (image.lines_of_tile(self.origin), others);
+            }
         }
+        let (address, left) = self.row;
+        self.row = (address + LINE_BYTES, left - 1);
+        Some(address)
     }
 }
 

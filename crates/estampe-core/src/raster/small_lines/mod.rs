@@ -16,7 +16,7 @@
 #[cfg(test)]
 mod tests;
 
-use super::small::{BoxPixels, EdgeLanes, SIDE, SmallBoxes, ends};
+use super::small::{BoxPixels, EdgeLanes, SIDE, SmallBoxes, axis_ends};
 use super::{SampleSet, TileShape};
 use crate::bounds::lines::LinePacket;
 use crate::bounds::pixel_rect::PixelRect;
@@ -296,10 +296,7 @@ impl<const N: usize> SmallBoxes<N> {
             LineShape::Columns { .. } => [[128; 2]; N],
             LineShape::Rectangle { .. } => samples.subpixels(),
         };
-        let sample_ends = [
-            ends(positions.map(|position| position[0])),
-            ends(positions.map(|position| position[1])),
-        ];
+        let sample_ends = axis_ends(&positions);
         let bounds = Bounds::new(s, &lines, outlines.reach, (tile, rect), sample_ends);
         let ([mut x_first, mut y_first], [x_last, y_last]) = (bounds.first, bounds.last);
         let is_empty = x_last.simd_lt(x_first) | y_last.simd_lt(y_first);

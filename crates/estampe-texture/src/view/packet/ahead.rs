@@ -119,8 +119,13 @@ impl<'a> Ahead<'a> {
 
     #[inline(always)]
     fn prefetch_row<S: Lanes>(&mut self, s: S) {
-        let lines = self.texels.iter().step_by(LINE).take(self.lines);
-        lines.for_each(|word| s.prefetch(word));
+        // A loop: the adapters of an iterator may be left out of line, where lanes are not.
+        for line in 0..self.lines {
+            let Some(word) = self.texels.get(line * LINE) else {
+                break;
+            };
+            s.prefetch(word);
+        }
         self.texels = self.texels.get(self.row_words..).unwrap_or_default();
     }
 }
