@@ -36,14 +36,19 @@ pub enum Channel {
 #[must_use]
 pub fn channels(format: TextureFormat) -> [Channel; 4] {
     use TexelEncoding as E;
-    let is_color = format.is_renderable();
+    let present = if format.is_renderable() {
+        format.components()
+    } else {
+        0
+    };
+    let (encoding, is_srgb) = (format.encoding(), format.is_srgb());
     std::array::from_fn(|index| {
         let is_alpha = index == 3;
-        if !is_color || index >= format.components() {
+        if index >= present {
             return Channel::Missing(u8::from(is_alpha));
         }
-        match format.encoding() {
-            E::Unorm8 if format.is_srgb() && !is_alpha => Channel::Srgb,
+        match encoding {
+            E::Unorm8 if is_srgb && !is_alpha => Channel::Srgb,
             E::Unorm8 => Channel::Unorm(8),
             E::Unorm16 => Channel::Unorm(16),
             E::Unorm10_2 => Channel::Unorm(if is_alpha { 2 } else { 10 }),

@@ -31,10 +31,7 @@ pub fn linear(code: u32) -> f32 {
 /// The code of a linear value: the number of thresholds at or below it. NaN gives 0.
 #[must_use]
 pub fn code(linear: f32) -> u8 {
-    let below = THRESHOLDS
-        .iter()
-        .filter(|&&threshold| threshold <= linear)
-        .count();
+    let below = THRESHOLDS.partition_point(|&threshold| threshold <= linear);
     u8::try_from(below).expect("there are 255 thresholds")
 }
 
