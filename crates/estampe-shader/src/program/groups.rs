@@ -12,6 +12,8 @@ pub(super) struct Group {
     pub(super) place: Place,
     /// The positions in the interface of each read's texture and sampler.
     pub(super) textures: Vec<[u32; 2]>,
+    /// True if the last channel of a read may be read.
+    pub(super) reads_alpha: bool,
 }
 
 impl Group {
@@ -38,9 +40,10 @@ impl Group {
             if is_common {
                 return;
             }
+            let shifts = (&TapShifts::UNSHIFTED, self.reads_alpha);
             if each == 1
                 && lod != PacketLod::Gradients
-                && first.sample_shifted(lod, &places, (&TapShifts::UNSHIFTED, true), texels)
+                && first.sample_shifted(lod, &places, shifts, texels)
             {
                 return;
             }

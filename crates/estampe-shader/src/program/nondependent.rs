@@ -149,21 +149,22 @@ impl Reads {
         reads
     }
 
-    /// Notes of which filters the last channel is read, given the inputs that are used.
+    /// Notes of which groups and filters the last channel is read, given the inputs that are used.
     fn note_alpha(&mut self, inputs: &[Input]) {
-        let before = self.groups.len();
-        for filter in &mut self.filters {
-            filter.reads_alpha = false;
-        }
-        for input in inputs {
-            if let Input::TextureRead { read, component } = input
-                && *component as usize == CHANNELS - 1
-                && let Some((span, _)) = self.of_read.get(*read as usize)
-                && let Some(filter) = span.checked_sub(before)
-                && let Some(filter) = self.filters.get_mut(filter)
-            {
-                filter.reads_alpha = true;
+        let is_alpha = |input: &Input| match input {
+            Input::TextureRead { read, component } if *component as usize == CHANNELS - 1 => {
+                self.of_read.get(*read as usize).map(|(span, _)| *span)
             }
+            _ => None,
+        };
+        let spans: Vec<usize> = inputs.iter().filter_map(is_alpha).collect();
+        let groups = self.groups.iter_mut().map(|group| &mut group.reads_alpha);
+        let filters = self
+            .filters
+            .iter_mut()
+            .map(|filter| &mut filter.reads_alpha);
+        for (span, reads_alpha) in groups.chain(filters).enumerate() {
+            *reads_alpha = spans.contains(&span);
         }
     }
 
@@ -197,6 +198,7 @@ impl Reads {
             self.groups.push(Group {
                 place: read.place.clone(),
                 textures: Vec::new(),
+                reads_alpha: true,
             });
             self.groups.len() - 1
         });

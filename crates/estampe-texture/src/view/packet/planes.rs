@@ -128,7 +128,9 @@ impl<S: SimdLanes> BlockLevel<'_, S> {
                 let tap = left.trailing_zeros() as usize;
                 left &= left - 1;
                 let of = (square, shifts.row_of(tap));
-                filter_between(s, of, reach, &planes.lines, (each, tap), colors);
+                if filter_between(s, of, reach, &planes.lines, (each, tap), colors).is_none() {
+                    return false;
+                }
             }
         }
         true
@@ -330,7 +332,8 @@ fn filter_rows<S: SimdLanes, const HOW: usize>(
     Some(())
 }
 
-/// Filters a tap of all packets between rows that are filtered along x.
+/// Filters a tap of all packets between rows that are filtered along x. `None` if there are not as
+/// many colours.
 #[inline(always)]
 fn filter_between<S: SimdLanes>(
     s: S,
@@ -339,7 +342,7 @@ fn filter_between<S: SimdLanes>(
     lines: &ByChannel,
     (each, tap): (usize, usize),
     colors: &mut [Answers],
-) {
+) -> Option<()> {
     for (numbers, spots) in NUMBERS.iter().zip(&square.spots) {
         let spot = &spots[row_of_tap % MOST_TAPS];
         let mut at = [0; SIDE];
@@ -347,15 +350,13 @@ fn filter_between<S: SimdLanes>(
             let line = texel.cast_signed().wrapping_sub(reach.top);
             *at = line.cast_unsigned() as usize % MOST_LINES;
         }
-        let [a, b, c, d] = *numbers;
-        let numbers = [
-            a * each + tap,
-            b * each + tap,
-            c * each + tap,
-            d * each + tap,
-        ];
-        let Ok(packets) = colors.get_disjoint_mut(numbers) else {
-            return;
+        // Packets beside each other are two, and two of the next quad of packets.
+        let own = colors.get_mut(numbers[0] * each + tap..)?;
+        let (a, own) = own.split_at_mut_checked(each)?;
+        let (b, own) = own.split_at_mut_checked(3 * each)?;
+        let (c, d) = own.split_at_mut_checked(each)?;
+        let ([a, ..], [b, ..], [c, ..], [d, ..]) = (a, b, c, d) else {
+            return None;
         };
         for (channel, lines) in lines.iter().enumerate().take(reach.channels) {
             let mut filtered = [<f32x16<S> as SimdBase<S>>::splat(s, 0.0); SIDE];
@@ -368,14 +369,24 @@ fn filter_between<S: SimdLanes>(
                 filtered[row] = upper + difference * down;
                 row += 1;
             }
-            let [a, b, c, d] = s.channels_of_paired(filtered);
-            packets[0][channel] = packet(a, 0);
-            packets[1][channel] = packet(b, 0);
-            packets[2][channel] = packet(c, 0);
-            packets[3][channel] = packet(d, 0);
+            let of_packets = s.channels_of_paired(filtered);
+            a[channel] = packet(of_packets[0], 0);
+            b[channel] = packet(of_packets[1], 0);
+            c[channel] = packet(of_packets[2], 0);
+            d[channel] = packet(of_packets[3], 0);
         }
     }
+    Some(())
 }
+
+const _: () = {
+    let mut row = 0;
+    while row < SIDE {
+        let [a, b, c, d] = NUMBERS[row];
+        assert!(b == a + 1 && c == b + 3 && d == c + 1, "in Morton order");
+        row += 1;
+    }
+};
 
 #[inline(always)]
 fn in_pairs<S: SimdLanes>(s: S, row: f32x16<S>) -> f32x16<S> {
