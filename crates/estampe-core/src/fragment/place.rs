@@ -222,42 +222,60 @@ impl Place {
         }
     }
 
-    /// One sample's depths, in the order of the fragments' lanes.
+    /// The depths of all samples, in the order of the fragments' lanes.
     #[inline(always)]
-    pub(crate) fn depths<S: Lanes>(
+    pub(crate) fn depths<S: Lanes, const N: usize>(
         &self,
         s: S,
         stored: &[[f32; LANES]],
-        [samples, sample]: [usize; 2],
-    ) -> [f32; LANES] {
+        samples: usize,
+        depths: &mut [[f32; LANES]; N],
+    ) {
         match *self {
-            Self::Pixels(ref places) => outline!(s, {
-                let indices = pixel_indices(s, places, samples, sample);
-                let words = s.gather(bits_of(stored.as_flattened()), indices);
-                let depths: f32x16<S> = words.bitcast();
-                depths.to_array()
+            Self::Pixels(ref places) if const { N <= 4 } => outline!(s, {
+                let stored = bits_of(stored.as_flattened());
+                let indices = pixel_indices(s, places, samples, 0);
+                let words: [u32x16<S>; N] = s.gather_lines(stored, indices);
+                for (sample, depths) in depths.iter_mut().enumerate() {
+                    let of_sample: f32x16<S> = words[sample].bitcast();
+                    of_sample.store_array(depths);
+                }
             }),
-            _ => self.gather(stored, samples, sample),
+            _ => {
+                for (sample, depths) in depths.iter_mut().enumerate().take(samples) {
+                    *depths = self.gather(stored, samples, sample);
+                }
+            }
         }
     }
 
-    /// Puts depths back in the lanes of a mask.
+    /// Puts the depths of all samples back, each in the lanes of a mask.
     #[inline(always)]
-    pub(crate) fn set_depths<S: Lanes>(
+    pub(crate) fn set_depths<S: Lanes, const N: usize>(
         &self,
         s: S,
-        values: &[f32; LANES],
-        mask: u16,
+        (depths, masks): (&[[f32; LANES]; N], &[u16; N]),
         stored: &mut [[f32; LANES]],
-        [samples, sample]: [usize; 2],
+        samples: usize,
     ) {
         match *self {
-            Self::Pixels(ref places) => outline!(s, {
-                let indices = pixel_indices(s, places, samples, sample);
-                let words = f32x16::load_array_ref(s, values).bitcast();
-                s.scatter(bits_of_mut(stored.as_flattened_mut()), indices, words, mask);
+            // Lanes outside a mask have what is stored, and all are of different pixels.
+            Self::Pixels(ref places) if const { N <= 4 } => outline!(s, {
+                let indices = pixel_indices(s, places, samples, 0);
+                let mut words = [<u32x16<S> as SimdBase<S>>::splat(s, 0); N];
+                let mut any = 0;
+                for (sample, words) in words.iter_mut().enumerate() {
+                    *words = f32x16::load_array_ref(s, &depths[sample]).bitcast();
+                    any |= masks[sample];
+                }
+                let stored = bits_of_mut(stored.as_flattened_mut());
+                s.scatter_lines(stored, indices, words, any);
             }),
-            _ => self.scatter(values, mask, stored, samples, sample),
+            _ => {
+                for (sample, depths) in depths.iter().enumerate().take(samples) {
+                    self.scatter(depths, masks[sample], stored, samples, sample);
+                }
+            }
         }
     }
 

@@ -208,6 +208,7 @@ impl<C: Copy> Target<'_, C> {
         };
         let mut shaded = None;
         let replaces = const { K::REPLACES } && batch.samples == 1 && !reads_stored;
+        let replaces_words = const { K::REPLACES } && layout.words == 1 && !reads_stored;
         for packet in batch.packets() {
             if replaces && let (&Place::Packet(at), &[mask]) = (packet.place, packet.masks) {
                 let texel = self.codec.encode(s, load(s, packet.color(self.index)));
@@ -227,6 +228,16 @@ impl<C: Copy> Target<'_, C> {
                 }
             }
             let indices = packet.place.indices(s, layout);
+            if let (true, Place::Pixels(_), &[a, b, c, d]) =
+                (replaces_words, packet.place, packet.masks)
+            {
+                let [texel, ..] = self.codec.encode(s, inputs.source);
+                outline!(s, {
+                    let stored = stored.as_flattened_mut();
+                    s.scatter_to_four_lines(stored, indices, texel, [a, b, c, d]);
+                });
+                continue;
+            }
             let mut encoded = None;
             for (sample, &mask) in packet.masks.iter().enumerate() {
                 if mask == 0 {

@@ -101,14 +101,14 @@ pub(crate) fn scatter_lines_avx2<const N: usize>(
     };
     let last = last as usize % LANES;
     let is_stored = simd.mask_from_bits(lanes);
-    let of_last = u32x16::splat(simd, scalars(index)[last]);
-    let index = is_stored.select(index, of_last).to_array();
+    let index = is_stored
+        .select(index, of_lane(simd, index, last))
+        .to_array();
     let mut all = [[0; LANES]; N];
     let mut line = 0;
     while line < N {
-        let of_last = u32x16::splat(simd, scalars(values[line])[last]);
         is_stored
-            .select(values[line], of_last)
+            .select(values[line], of_lane(simd, values[line], last))
             .store_array(&mut all[line]);
         line += 1;
     }
@@ -128,6 +128,89 @@ fn store_words<const N: usize>(
             if let Some(to) = table.get_mut(at as usize + line * LANES) {
                 *to = values[lane];
             }
+        }
+    }
+}
+
+/// [`Lanes::scatter_to_four_lines`]: lines outside a lane's masks store what another line of it
+/// does, lanes outside all masks what the last lane does.
+#[inline(always)]
+pub(crate) fn scatter_to_four_lines_avx2(
+    simd: Avx2,
+    table: &mut [u32],
+    index: u32x16<Avx2>,
+    values: u32x16<Avx2>,
+    lanes: [u16; 4],
+) {
+    let any = lanes[0] | lanes[1] | lanes[2] | lanes[3];
+    let Some(last) = (u16::BITS - 1).checked_sub(any.leading_zeros()) else {
+        return;
+    };
+    let last = last as usize % LANES;
+    let mut lines = u32x16::splat(simd, 0);
+    let mut line = 0;
+    while line < 4 {
+        let bit = u32x16::splat(simd, 1 << line);
+        lines |= simd
+            .mask_from_bits(lanes[line])
+            .select(bit, u32x16::splat(simd, 0));
+        line += 1;
+    }
+    let is_stored = simd.mask_from_bits(any);
+    let index = is_stored.select(index, of_lane(simd, index, last));
+    let values = is_stored.select(values, of_lane(simd, values, last));
+    let lines = is_stored.select(lines, of_lane(simd, lines, last));
+    store_to_four_lines(
+        table,
+        &index.to_array(),
+        &values.to_array(),
+        &lines.to_array(),
+    );
+}
+
+/// The word of one lane in all.
+#[inline(always)]
+fn of_lane(simd: Avx2, words: u32x16<Avx2>, lane: usize) -> u32x16<Avx2> {
+    u32x16::splat(simd, scalars(words)[lane])
+}
+
+/// For each mask of four lines, where they begin: those that it lacks where its first one does.
+static FIRST_OF_LINES: [[usize; 4]; 16] = {
+    let mut firsts = [[0; 4]; 16];
+    let mut mask = 1;
+    while mask < 16_usize {
+        let mut line = 0;
+        while line < 4 {
+            let has_it = mask >> line & 1 == 1;
+            let stored = if has_it {
+                line
+            } else {
+                mask.trailing_zeros() as usize
+            };
+            firsts[mask][line] = stored * LANES;
+            line += 1;
+        }
+        mask += 1;
+    }
+    firsts
+};
+
+/// Stores each word in those of four lines that a mask has, if all four are in the table. Not
+/// inlined, as [`store_words`].
+#[inline(never)]
+fn store_to_four_lines(
+    table: &mut [u32],
+    index: &[u32; LANES],
+    values: &[u32; LANES],
+    lines: &[u32; LANES],
+) {
+    for lane in 0..LANES {
+        let from = table.get_mut(index[lane] as usize..);
+        let Some(four) = from.and_then(<[u32]>::first_chunk_mut::<{ 3 * LANES + 1 }>) else {
+            continue;
+        };
+        for first in FIRST_OF_LINES[lines[lane] as usize % 16] {
+            four[first & (3 * LANES)] = values[lane];
         }
     }
 }

@@ -215,7 +215,7 @@ pub use choice::SquareLoads;
 pub(crate) use {
     choice::{decide, gathers_avx512, square_avx2, square_avx512},
     fours::{four_avx2, four_avx512, four_sse2},
-    lines::{gather_lines_avx2, scatter_lines_avx2},
+    lines::{gather_lines_avx2, scatter_lines_avx2, scatter_to_four_lines_avx2},
     pairs::pair_avx512,
     single::{avx2, avx512, scatter_avx512},
     squares::{pair_avx2, square_sse2},

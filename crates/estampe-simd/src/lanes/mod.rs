@@ -134,6 +134,28 @@ pub trait Lanes: Simd {
         }
     }
 
+    /// [`scatter`](Self::scatter) of the same word of each lane to four lines, which are
+    /// [`LANES`](crate::LANES) elements apart, each with a mask of its own. Lanes of which a line is
+    /// beyond the table are left out.
+    #[inline(always)]
+    fn scatter_to_four_lines(
+        self,
+        table: &mut [u32],
+        index: u32x16<Self>,
+        values: u32x16<Self>,
+        lanes: [u16; 4],
+    ) {
+        let Some(last) = table.len().checked_sub(3 * crate::LANES) else {
+            return;
+        };
+        let mut line = 0;
+        while line < 4 {
+            let first = line * crate::LANES;
+            self.scatter(&mut table[first..][..last], index, values, lanes[line]);
+            line += 1;
+        }
+    }
+
     /// `table[index]` in each lane, for an index below 256; for any other index, some element.
     #[inline(always)]
     fn lookup(self, table: &[u32; 256], index: u32x16<Self>) -> u32x16<Self> {

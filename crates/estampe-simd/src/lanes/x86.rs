@@ -238,6 +238,16 @@ impl Lanes for Avx2 {
     ) {
         crate::gather::scatter_lines_avx2(self, table, index, values, lanes);
     }
+    #[inline(always)]
+    fn scatter_to_four_lines(
+        self,
+        table: &mut [u32],
+        index: u32x16<Self>,
+        values: u32x16<Self>,
+        lanes: [u16; 4],
+    ) {
+        crate::gather::scatter_to_four_lines_avx2(self, table, index, values, lanes);
+    }
 }
 
 impl Lanes for Avx512 {

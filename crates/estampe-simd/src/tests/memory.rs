@@ -100,6 +100,42 @@ fn scatter_stores_the_last_of_equal_indices_and_leaves_out_those_beyond() {
     }
 }
 
+#[inline(always)]
+fn scatter_to_four_lines<S: Lanes>(s: S, table: &mut [u32], index: [u32; LANES], lanes: [u16; 4]) {
+    let index = u32x16::load_array(s, index);
+    s.scatter_to_four_lines(table, index, u32x16::load_array(s, NUMBERS) + 100, lanes);
+}
+
+#[test]
+fn words_go_to_the_lines_that_have_their_lane() {
+    // Two packets of four lines each. Some places come twice; the last lanes' lines are not all in
+    // the table.
+    let index = [0, 1, 15, 64, 7, 79, 70, 3, 9, 2, 12, 7, 5, 79, 80, u32::MAX];
+    for level in Level::all_available() {
+        for lanes in [
+            [u16::MAX; 4],
+            [0; 4],
+            [0xA5C3, 0x0410, 0, 0x8001],
+            [0, 0x3FFF, 0x2000, 0x00FF],
+            [1 << 15, 0, 0, 1 << 8],
+        ] {
+            let mut expected = [7; 128];
+            for (lane, at) in index.into_iter().enumerate().take(14) {
+                for line in 0..4 {
+                    if lanes[line] >> lane & 1 == 1 {
+                        expected[at as usize + line * LANES] = 100 + NUMBERS[lane];
+                    }
+                }
+            }
+            let mut table = [7; 128];
+            dispatch!(level, s => scatter_to_four_lines(s, &mut table, index, lanes));
+            assert_eq!(table, expected, "{level:?} {lanes:x?}");
+        }
+        dispatch!(level, s => scatter_to_four_lines(s, &mut [], index, [u16::MAX; 4]));
+        dispatch!(level, s => scatter_to_four_lines(s, &mut [0; 48], index, [u16::MAX; 4]));
+    }
+}
+
 /// Words of `N` lines of each lane.
 #[inline(always)]
 fn of_lines<S: Lanes, const N: usize>(

@@ -1,7 +1,7 @@
 //! Small primitives of a batch as a list of pixels, or quads: tests before shading, then packets.
 
 use super::small::{Listing, SmallScratch};
-use super::tests::run_apart;
+use super::tests::{run_apart, samples_in};
 use super::{InOrder, InOrderScratch};
 use crate::bounds::lane_order::AnyOrder;
 use crate::depth_format::clamp_depth;
@@ -219,9 +219,7 @@ impl<const N: usize> InOrder<'_, '_, '_, '_, N> {
             (false, _) => last_packet.add(&places, alive),
         };
         end = end.min(wanted);
-        if quads {
-            end -= end % QUAD;
-        }
+        end -= if quads { end % QUAD } else { 0 };
         if end == used {
             self.scratch.queue.close_pixels();
             return 0;
@@ -245,24 +243,26 @@ impl<const N: usize> InOrder<'_, '_, '_, '_, N> {
         let first = scratch.small.distances(s, pixels, order);
         if tests {
             let depths = V::depths(scratch, s, order, pixels.lane());
-            let place = &packet.place();
-            for (sample, place_of_depth) in depths_at.into_iter().enumerate().take(samples) {
-                let mask = &mut packet.masks[sample];
-                let distances = moved(first, offsets[0], place_of_depth);
-                let new = V::depth(&depths, s, distances);
-                let new = plan.tests.stored.of(s, new);
-                let fragments = (new, *mask, packet.front);
-                let at = (place, samples, sample);
-                *mask = run_apart(s, &plan.tests, fragments, at, self.job);
-            }
+            let (place, front) = (&packet.place(), packet.front);
+            run_apart(
+                s,
+                &plan.tests,
+                (&mut packet.masks, front),
+                (place, samples),
+                self.job,
+                #[inline(always)]
+                |sample| {
+                    let distances = moved(first, offsets[0], depths_at[sample]);
+                    plan.tests.stored.of(s, V::depth(&depths, s, distances))
+                },
+            );
             if plan.tests.writes_depth() {
                 self.scratch.hiz.invalidate(place.blocks());
             }
         }
         if tests || plan.timing == TestTiming::Early && plan.tests.is_empty() {
             if plan.query.is_some() {
-                let counts = packet.masks.iter().map(|mask| u64::from(mask.count_ones()));
-                self.passed += counts.sum::<u64>();
+                self.passed += samples_in(&packet.masks);
             }
             if packet.masks == [0; N] {
                 return count;

@@ -1,6 +1,7 @@
 //! The tests of the in-order path: before shading, and after it (O9).
 
 use super::InOrder;
+use crate::depth_format::StoredDepth;
 use crate::fragment::interpolate::Interpolant;
 use crate::fragment::place::Place;
 use crate::fragment::queue::{LatePacket, depth_after_shading};
@@ -9,6 +10,7 @@ use crate::plan::tile_plan::TestTiming;
 use crate::raster::packet_origin;
 use crate::tile_pass::TileJob;
 use estampe_simd::{LANES, Lanes, Packet, SimdBase, f32x16, outline};
+use estampe_types::shader::DepthOutput;
 
 impl<const N: usize> InOrder<'_, '_, '_, '_, N> {
     /// Drops the samples that the sample mask excludes and those that fail before shading; false
@@ -135,8 +137,7 @@ impl<const N: usize> InOrder<'_, '_, '_, '_, N> {
                 written |= packet.place.blocks();
             }
             if plan.query.is_some() {
-                let counts = packet.masks.iter().map(|mask| u64::from(mask.count_ones()));
-                self.passed += counts.sum::<u64>();
+                self.passed += samples_in(packet.masks);
             }
         }
         if plan.tests.writes_depth() {
@@ -160,6 +161,12 @@ impl<const N: usize> InOrder<'_, '_, '_, '_, N> {
     }
 }
 
+/// The number of samples in masks of lanes.
+#[inline(always)]
+pub(super) fn samples_in(masks: &[u16]) -> u64 {
+    masks.iter().map(|mask| u64::from(mask.count_ones())).sum()
+}
+
 /// Tests one shaded packet.
 #[inline(always)]
 fn run_late<S: Lanes, const N: usize>(
@@ -169,60 +176,81 @@ fn run_late<S: Lanes, const N: usize>(
     samples: usize,
     job: &mut TileJob<'_>,
 ) {
-    for sample in 0..samples {
-        let lanes = packet.masks[sample];
-        if lanes == 0 {
+    let (depths, depth_out) = (packet.depths, packet.depth_out);
+    let (place, front) = (packet.place, packet.front);
+    let Place::Packet(number) = *place else {
+        run_apart(
+            s,
+            tests,
+            (packet.masks, front),
+            (place, samples),
+            job,
+            #[inline(always)]
+            |sample| late_depth(s, tests.stored, &depths[sample], depth_out),
+        );
+        return;
+    };
+    for (sample, mask) in packet.masks.iter_mut().enumerate().take(samples) {
+        if *mask == 0 {
             continue;
         }
-        let interpolated = f32x16::load_array_ref(s, &packet.depths[sample].0);
-        let depth = depth_after_shading(s, interpolated, packet.depth_out, tests.stored.range);
-        let new = tests.stored.format.stored_lanes(s, depth);
-        let place = packet.place;
-        let front = packet.front;
-        packet.masks[sample] = match *place {
-            Place::Packet(number) => {
-                let line = usize::from(number) * samples + sample;
-                let stored = StoredSamples {
-                    depth: job.depth.get_mut(line),
-                    stencil: job.stencil.get_mut(line),
-                };
-                tests.run(s, new, lanes, front, stored)
-            }
-            Place::Quads(_) | Place::Pixels(_) => {
-                run_apart(s, tests, (new, lanes, front), (place, samples, sample), job)
-            }
+        let line = usize::from(number) * samples + sample;
+        let stored = StoredSamples {
+            depth: job.depth.get_mut(line),
+            stencil: job.stencil.get_mut(line),
         };
+        let new = late_depth(s, tests.stored, &depths[sample], depth_out);
+        *mask = tests.run(s, new, *mask, front, stored);
     }
 }
 
-/// Tests one sample of fragments that lie apart. Returns the lanes that pass.
+/// The depths of one sample, as they are stored, after shading.
 #[inline(always)]
-pub(super) fn run_apart<S: Lanes>(
+fn late_depth<S: Lanes>(
+    s: S,
+    StoredDepth { range, format }: StoredDepth,
+    interpolated: &Packet<f32>,
+    depth_out: Option<(DepthOutput, &Packet<f32>)>,
+) -> f32x16<S> {
+    let interpolated = f32x16::load_array_ref(s, &interpolated.0);
+    format.stored_lanes(s, depth_after_shading(s, interpolated, depth_out, range))
+}
+
+/// Tests fragments that lie apart, of different pixels, given the new depths of each sample. Leaves
+/// the lanes that pass.
+#[inline(always)]
+pub(super) fn run_apart<S: Lanes, const N: usize>(
     s: S,
     tests: &SampleTests,
-    (new, lanes, front): (f32x16<S>, u16, u16),
-    (place, samples, sample): (&Place, usize, usize),
+    (masks, front): (&mut [u16; N], u16),
+    (place, samples): (&Place, usize),
     job: &mut TileJob<'_>,
-) -> u16 {
-    let at = [samples, sample];
-    let mut depth = [0.0; LANES];
+    new: impl Fn(usize) -> f32x16<S>,
+) {
+    let mut depths = [[0.0; LANES]; N];
     let has_depth = !job.depth.is_empty();
     if has_depth {
-        depth = place.depths(s, job.depth, at);
+        place.depths(s, job.depth, samples, &mut depths);
     }
-    let mut stencil = (!job.stencil.is_empty()).then(|| place.gather(job.stencil, samples, sample));
-    let stored = StoredSamples {
-        depth: has_depth.then_some(&mut depth),
-        stencil: stencil.as_mut(),
-    };
-    let passed = tests.run(s, new, lanes, front, stored);
+    let tested = *masks;
+    for (sample, mask) in masks.iter_mut().enumerate().take(samples) {
+        if *mask == 0 {
+            continue;
+        }
+        let mut stencil =
+            (!job.stencil.is_empty()).then(|| place.gather(job.stencil, samples, sample));
+        let stored = StoredSamples {
+            depth: has_depth.then_some(&mut depths[sample]),
+            stencil: stencil.as_mut(),
+        };
+        *mask = tests.run(s, new(sample), tested[sample], front, stored);
+        if let (Some(stencil), Some(_)) = (&stencil, &tests.stencil) {
+            place.scatter(stencil, tested[sample], job.stencil, samples, sample);
+        }
+    }
     if has_depth && tests.writes_depth() {
-        place.set_depths(s, &depth, lanes, job.depth, at);
+        place.set_depths(s, (&depths, &tested), job.depth, samples);
     }
-    if let (Some(stencil), Some(_)) = (&stencil, &tests.stencil) {
-        place.scatter(stencil, lanes, job.stencil, samples, sample);
-    }
-    passed
 }
 
 /// Keeps the first of the samples, as many as alpha says: ⌊alpha·samples + ½⌋.
