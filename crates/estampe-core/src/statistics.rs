@@ -145,6 +145,10 @@ pub struct Statistics {
     /// depend on the SIMD level.
     #[doc(hidden)]
     pub packets_shown_uncleared: u64,
+    /// Blocks of 16×16 pixels that show one triangle, whose packets were queued at once. They
+    /// depend on the SIMD level.
+    #[doc(hidden)]
+    pub blocks_queued: u64,
     /// Blocks of 16×16 pixels that were not cleared, as one triangle was shown in all of each. They
     /// depend on the SIMD level.
     #[doc(hidden)]
@@ -215,6 +219,7 @@ impl std::ops::AddAssign for Statistics {
         self.images_given_memory += other.images_given_memory;
         self.blocks_uncleared += other.blocks_uncleared;
         self.packets_shown_uncleared += other.packets_shown_uncleared;
+        self.blocks_queued += other.blocks_queued;
         self.geometry += other.geometry;
         self.raster += other.raster;
     }

@@ -108,6 +108,29 @@ fn large_triangles_over_each_other() {
     );
 }
 
+/// Rows: O4, R5.
+#[test]
+fn blocks_that_show_one_triangle() {
+    let paths = ExpectedPaths(&[TilePath::VisibilityQuads]);
+    let statistics = check_paths("visibility/blocks", 60, paths, |random| {
+        let mut case = target(random, [150, 90]);
+        for draw in 0..=random.below(2) {
+            let corner = values(random);
+            let vertices = match draw {
+                0 if random.once_in(3) => {
+                    whole_target(case.size, |[x, y]| corner.map(|value| value + x - y))
+                }
+                _ => triangles(random, Style::Huge, case.size, 2),
+            };
+            let mut draw = opaque(random, &vertices);
+            draw.shader = Probe::random(random).into();
+            case.draws.push(draw);
+        }
+        case
+    });
+    assert!(statistics.blocks_queued > 0, "each packet came alone");
+}
+
 /// Rows: R1, O4, U3.
 #[test]
 fn many_small_triangles() {

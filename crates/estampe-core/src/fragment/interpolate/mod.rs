@@ -4,6 +4,7 @@
 //! varyings at any pixel. Planes are evaluated anew at each pixel, from the first sorted vertex:
 //! `p₀ + ((X − x₀)·∂p/∂x + (Y − y₀)·∂p/∂y)`.
 
+mod block;
 mod line;
 mod pixels;
 mod planes;

@@ -87,59 +87,65 @@ impl TriangleInterpolant<'_> {
     #[inline(always)]
     fn varyings_at<S: Lanes>(&self, s: S, distances: [f32x16<S>; 2], out: &mut [Packet<f32>]) {
         outline!(s, {
-            let one = <f32x16<S> as SimdBase<S>>::splat(s, 1.0);
             let planes = self.planes;
             let n = out.len().min(planes.len());
-            let (out, derivatives) = out.split_at_mut(n);
-            // Not from the plane, whose sum would turn −0 into 0.
-            let is_flat = |k: usize| !self.all_smooth && self.modes[k] == Interpolation::Flat;
-            if self.equal_w {
-                for (k, packet) in out.iter_mut().enumerate().take(n) {
-                    if is_flat(k) {
-                        packet.0 = [planes.origin[k]; LANES];
-                        continue;
-                    }
-                    evaluate(s, &planes.of(k), distances).store_array(&mut packet.0);
-                }
-                let (along_x, along_y) = derivatives.split_at_mut(self.gradients.len());
-                let along = along_x.iter_mut().zip(along_y);
-                for ((along_x, along_y), &k) in along.zip(self.gradients) {
-                    let Plane { dx, dy, .. } = planes.of(k);
-                    // The sum turns −0 into 0, so that all that does not vary is alike.
-                    (along_x.0, along_y.0) = ([dx + 0.0; LANES], [dy + 0.0; LANES]);
-                }
-                return;
+            let mut w = <f32x16<S> as SimdBase<S>>::splat(s, 1.0);
+            if !self.equal_w {
+                w /= evaluate(s, &self.iw, distances);
             }
-            let w = one / evaluate(s, &self.iw, distances);
             for (k, packet) in out.iter_mut().enumerate().take(n) {
-                if is_flat(k) {
+                let mode = self.mode(k);
+                if mode == Interpolation::Flat {
+                    // Not from the plane, whose sum would turn −0 into 0.
                     packet.0 = [planes.origin[k]; LANES];
                     continue;
                 }
                 let mut value = evaluate(s, &planes.of(k), distances);
-                if self.all_smooth || self.modes[k] == Interpolation::Smooth {
+                if !self.equal_w && mode == Interpolation::Smooth {
                     value *= w;
                 }
                 value.store_array(&mut packet.0);
             }
-            let (along_x, along_y) = derivatives.split_at_mut(self.gradients.len());
-            let along = along_x.iter_mut().zip(along_y);
-            let splat = |value| <f32x16<S> as SimdBase<S>>::splat(s, value);
-            let slopes_of_iw = [splat(self.iw.dx), splat(self.iw.dy)];
-            for ((along_x, along_y), &k) in along.zip(self.gradients) {
-                let Plane { dx, dy, .. } = planes.of(k);
-                if self.all_smooth || self.modes[k] == Interpolation::Smooth {
-                    let value = f32x16::load_array_ref(s, &out[k].0);
-                    let slopes = [splat(dx), splat(dy)];
-                    let [x, y] = smooth_derivatives(slopes, value, slopes_of_iw, w);
-                    x.store_array(&mut along_x.0);
-                    y.store_array(&mut along_y.0);
-                } else {
-                    // Those of a flat one are 0.
-                    (along_x.0, along_y.0) = ([dx + 0.0; LANES], [dy + 0.0; LANES]);
-                }
-            }
+            let (values, derivatives) = out.split_at_mut(n);
+            self.derivatives(s, (values, derivatives), w);
         })
+    }
+
+    /// The derivatives of a packet's varyings, given these and the w that they were multiplied by.
+    #[inline(always)]
+    pub(super) fn derivatives<S: Lanes>(
+        &self,
+        s: S,
+        (values, derivatives): (&[Packet<f32>], &mut [Packet<f32>]),
+        w: f32x16<S>,
+    ) {
+        let splat = |value| <f32x16<S> as SimdBase<S>>::splat(s, value);
+        let (along_x, along_y) = derivatives.split_at_mut(self.gradients.len());
+        let along = along_x.iter_mut().zip(along_y);
+        for ((along_x, along_y), &k) in along.zip(self.gradients) {
+            let Plane { dx, dy, .. } = self.planes.of(k);
+            if self.equal_w || self.mode(k) != Interpolation::Smooth {
+                // The sum turns −0 into 0, so that all that does not vary is alike.
+                (along_x.0, along_y.0) = ([dx + 0.0; LANES], [dy + 0.0; LANES]);
+                continue;
+            }
+            let value = f32x16::load_array_ref(s, &values[k].0);
+            let slopes = [splat(dx), splat(dy)];
+            let slopes_of_iw = [splat(self.iw.dx), splat(self.iw.dy)];
+            let [x, y] = smooth_derivatives(slopes, value, slopes_of_iw, w);
+            x.store_array(&mut along_x.0);
+            y.store_array(&mut along_y.0);
+        }
+    }
+
+    /// How scalar `k` varies.
+    #[inline(always)]
+    pub(super) fn mode(&self, k: usize) -> Interpolation {
+        if self.all_smooth {
+            Interpolation::Smooth
+        } else {
+            self.modes[k]
+        }
     }
 }
 

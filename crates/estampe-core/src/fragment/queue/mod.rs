@@ -5,6 +5,7 @@
 //! A packet is sixteen pixels of one primitive, or four quads of any primitives that share a
 //! pipeline, or, of shaders without derivatives, sixteen pixels of different small triangles.
 
+mod block;
 mod capacity;
 mod pixels;
 mod quads;
@@ -14,6 +15,7 @@ mod survivors;
 
 use capacity::CAPACITY;
 
+pub(crate) use block::TriangleBlock;
 pub(crate) use capacity::{PACKETS_OF_VISIBILITY, packets_in_order};
 pub(crate) use pixels::PixelPacket;
 pub(crate) use quads::QuadPlace;

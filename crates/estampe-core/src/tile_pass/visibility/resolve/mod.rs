@@ -2,10 +2,12 @@
 //!
 //! A packet that shows one triangle is shaded whole. Of others each triangle's quads are shaded in
 //! packets that they share with those of other triangles and places (`quads.rs`), or, if fragments
-//! need no quads, its pixels (`pixels.rs`). Where smaller triangles may show was noted when they
+//! need no quads, its pixels (`pixels.rs`). A block of packets that shows one is queued at once
+//! (`blocks.rs`). Where smaller triangles may show was noted when they
 //! were covered, and is asked first (`touched.rs`). Draws that share a pipeline and bindings are
 //! shaded together, and those of one colour come first.
 
+mod blocks;
 mod early;
 mod groups;
 mod ids;
@@ -266,13 +268,26 @@ impl<'a, 'j, 't, const N: usize> Resolver<'a, 'j, 't, N> {
             while packets != 0 {
                 self.job.next.step(s, lines);
                 let number = from + packets.trailing_zeros() as usize;
+                #[expect(clippy::cast_possible_truncation, reason = "a tile has 256 packets")]
+                let packet = number as u16;
+                let block = 0xFFFF << (number % 64 / LANES * LANES);
+                let is_whole = packets & block == block;
                 packets &= packets - 1;
                 let single = self.scratch.visibility.buffer.single.of_packet(number);
                 if let (Some(id), true) = (single, per_primitive)
                     && group.ids.contains(&id)
                 {
                     self.fill_block(s, id, number);
-                    packets &= !(0xFFFF << (number % 64));
+                    packets &= !block;
+                    continue;
+                }
+                if let Some(id) = single
+                    && group.ids.contains(&id)
+                    && is_whole
+                    && self.queue_block(s, id, packet)
+                {
+                    packets &= !block;
+                    self.job.next.step(s, lines * (LANES - 1));
                     continue;
                 }
                 let mut left = match single {
@@ -289,8 +304,6 @@ impl<'a, 'j, 't, const N: usize> Resolver<'a, 'j, 't, N> {
                         Some(id) => (id, std::mem::replace(&mut left, [0; N])),
                         None => self.take_first(s, number, &mut left),
                     };
-                    #[expect(clippy::cast_possible_truncation, reason = "a tile has 256 packets")]
-                    let packet = number as u16;
                     let covered = Covered {
                         packet,
                         masks: covered,
