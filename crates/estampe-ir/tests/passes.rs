@@ -263,3 +263,37 @@ outputs v11
     assert_eq!(masks.len(), 2, "{kernel}");
     assert_eq!(masks[0], masks[1], "{kernel}");
 }
+
+/// A product with a varying is fused; one of uniform factors, a shift of a filter's tap, is not.
+#[test]
+fn products_of_uniform_factors_are_not_contracted() {
+    let source = "tree fragment
+input varying(0)
+output color(0, 0)
+output color(0, 1)
+buffer 0.0
+texture_at 0.1
+v0 = input 0
+v1 = const 0
+v2 = load_buffer 0 [v1]
+m3 = mask true
+v4, v5, v6 = texture size of 0 at () in m3
+v7 = f32_from_u32 v4
+v8 = fmul v2, v7
+v9 = fadd v0, v8
+v10 = fmul v0, v2
+v11 = fadd v10, v7
+outputs v9, v11
+";
+    let mut tree = text::tree(source).unwrap_or_else(|error| panic!("{error}"));
+    verify(&tree).unwrap_or_else(|error| panic!("{error}"));
+    passes::contract(&mut tree);
+    passes::dead_code(&mut tree);
+    verify(&tree).unwrap_or_else(|error| panic!("{error}"));
+    let contracted = tree.to_string();
+    assert!(contracted.contains("v9 = fadd v0, v8\n"), "{contracted}");
+    assert!(
+        contracted.contains("v11 = fma v0, v2, v7\n"),
+        "{contracted}"
+    );
+}

@@ -61,8 +61,9 @@ pub struct ShaderModuleDescriptor<'a> {
     /// The dialect of GLSL. Default what the text looks like.
     pub dialect: Option<GlslDialect>,
     /// If set, each operation on floats is rounded. Otherwise a product that is added or subtracted
-    /// is rounded together with the sum, once (*contraction*): faster, mostly more exact, and the
-    /// same on all machines, but not the bits of the strict shader. Default true.
+    /// is rounded together with the sum, once (*contraction*), unless both of its factors are the
+    /// same in all invocations: mostly faster and more exact, and the same on all machines, but not
+    /// the bits of the strict shader. Default true.
     pub strict_math: bool,
 }
 

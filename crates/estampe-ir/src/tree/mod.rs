@@ -26,7 +26,7 @@ pub use builder::Builder;
 pub use evaluate::{Surroundings, evaluate};
 pub use verify::{VerifyError, verify};
 
-use crate::interface::{Interface, Stage};
+use crate::interface::{Input, Interface, Stage};
 use crate::{Op, Type, Value};
 
 /// Names a [`Node::Block`] or a [`Node::Loop`]. No two of a tree have the same label.
@@ -117,5 +117,21 @@ impl Tree {
         buffers
             .get(buffer as usize)
             .is_none_or(|buffer| buffer.is_written)
+    }
+
+    /// True if an operation gives the same words in all invocations of a draw or dispatch, where its
+    /// operands are the same in all.
+    #[must_use]
+    pub fn is_uniform(&self, op: &Op) -> bool {
+        match op {
+            Op::Constant(_) | Op::Unary(..) | Op::Binary(..) | Op::Fma(_) => true,
+            Op::Input(at) => {
+                let input = self.interface.inputs.get(*at as usize);
+                matches!(input, Some(Input::PushConstant(_)))
+            }
+            Op::LoadBuffer { buffer, .. } => !self.is_written(*buffer),
+            Op::Texture(op) => op.query.is_of_shape(),
+            _ => false,
+        }
     }
 }

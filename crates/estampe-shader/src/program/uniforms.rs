@@ -115,7 +115,7 @@ impl<'a> Finder<'a> {
                 operations = operations.zip(before).map(|(a, b)| a.saturating_add(b));
             }
             let operations = operations.filter(|all| *all <= MOST_OPERATIONS);
-            if let Some(operations) = operations.filter(|_| is_uniform(tree, op)) {
+            if let Some(operations) = operations.filter(|_| tree.is_uniform(op)) {
                 for (result, value) in (0..).zip(first.and_next(op.results().len())) {
                     let definition = Definition {
                         op,
@@ -210,20 +210,6 @@ impl<'a> Finder<'a> {
     /// The steps that compute the values that were numbered.
     pub(super) fn finish(self) -> Uniforms {
         self.uniforms
-    }
-}
-
-/// True if an operation gives the same words for all fragments, if its operands are.
-fn is_uniform(tree: &Tree, op: &Op) -> bool {
-    match op {
-        Op::Constant(_) | Op::Unary(..) | Op::Binary(..) | Op::Fma(_) => true,
-        Op::Input(at) => {
-            let input = tree.interface.inputs.get(*at as usize);
-            matches!(input, Some(Input::PushConstant(_)))
-        }
-        Op::LoadBuffer { buffer, .. } => !tree.is_written(*buffer),
-        Op::Texture(op) => op.query.is_of_shape(),
-        _ => false,
     }
 }
 

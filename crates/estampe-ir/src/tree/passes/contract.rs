@@ -9,10 +9,16 @@ use std::collections::HashMap;
 /// one operation that rounds once ([`Op::Fma`]). Results change, by less than a rounding; they are
 /// the same on all machines, as those of the operations are. Products that are not needed any more
 /// are left to [`dead_code`](super::dead_code).
+///
+/// Products of two uniform factors stay: they are computed once and not for each invocation, and
+/// sums with them are told to be varyings at uniform shifts, as the taps of filters are.
 pub fn contract(tree: &mut Tree) {
     let mut products = HashMap::new();
     let mut uses = vec![0_u32; tree.len()];
     survey(&tree.body, &mut products, &mut uses);
+    let mut uniform = vec![false; tree.len()];
+    find_uniform(tree, &tree.body, &mut uniform);
+    products.retain(|_, factors| !factors.iter().all(|factor| uniform[factor.index()]));
     for value in &tree.outputs {
         uses[value.index()] += 1;
     }
@@ -47,6 +53,31 @@ fn survey(nodes: &[Node], products: &mut HashMap<Value, [Value; 2]>, uses: &mut 
             }
             Node::Block { body, .. } | Node::Loop { body, .. } => survey(body, products, uses),
             Node::Op { .. } | Node::Branch { .. } => {}
+        }
+    }
+}
+
+/// Sets which values are the same in all invocations.
+fn find_uniform(tree: &Tree, nodes: &[Node], uniform: &mut [bool]) {
+    for node in nodes {
+        match node {
+            Node::Op { op, first } => {
+                let mut is_uniform = tree.is_uniform(op);
+                op.each_operand(|value, kind| {
+                    is_uniform &= kind == Type::Mask || uniform[value.index()];
+                });
+                for result in first.and_next(op.results().len()) {
+                    uniform[result.index()] = is_uniform;
+                }
+            }
+            Node::If { accept, reject, .. } => {
+                find_uniform(tree, accept, uniform);
+                find_uniform(tree, reject, uniform);
+            }
+            Node::Block { body, .. } | Node::Loop { body, .. } => {
+                find_uniform(tree, body, uniform);
+            }
+            Node::Branch { .. } => {}
         }
     }
 }
