@@ -119,8 +119,8 @@ impl Tree {
             .is_none_or(|buffer| buffer.is_written)
     }
 
-    /// True if an operation gives the same words in all invocations of a draw or dispatch, where its
-    /// operands are the same in all.
+    /// True if an operation gives the same words in all invocations of a draw or dispatch, where
+    /// its operands are the same in all.
     #[must_use]
     pub fn is_uniform(&self, op: &Op) -> bool {
         match op {

@@ -1,8 +1,8 @@
 //! Samples at uniform shifts from varyings are made before the shader runs, and give the same bits
 //! as those that its code makes.
 
-use super::program;
 use super::running::{Textures, samplers};
+use super::{fragment, program, program_of};
 use estampe_shader::program::TextProgram;
 use estampe_simd::{LANE_X, LANE_Y, LANES, Level, Packet};
 use estampe_texture::{AddressMode, SamplerDescriptor};
@@ -10,7 +10,7 @@ use estampe_types::morton::compact;
 use estampe_types::{Bindings, FragmentBatch, Program};
 
 /// Statements that sample, with `AT` for the varying, and how many samples they are.
-const FILTERS: [(usize, &str); 8] = [
+const FILTERS: [(usize, &str); 12] = [
     (
         5,
         "let step = vec2f(1.0, 0.0) / vec2f(textureDimensions(halves));
@@ -35,6 +35,33 @@ const FILTERS: [(usize, &str); 8] = [
         "let step = 0.7 / vec2f(textureDimensions(halves));
         sum += vec4f(textureSampleLevel(halves, s, AT + step, 0.0).rgb
             + textureSampleLevel(halves, s, AT - step, 0.0).rgb, 1.0);",
+    ),
+    // The last channel of one filter, and the others of another one, or of a sample.
+    (
+        4,
+        "sum += vec4f(textureSampleLevel(halves, s, AT + 0.01, 0.0).rgb
+            + textureSampleLevel(halves, s, AT - 0.01, 0.0).rgb,
+            textureSampleLevel(map, s, AT + 0.25, 0.0).a
+            + textureSampleLevel(map, s, AT - 0.25, 0.0).a);",
+    ),
+    (
+        4,
+        "sum += vec4f(textureSampleLevel(map, s, AT + 0.01, 0.0).rgb
+            + textureSampleLevel(map, s, AT - 0.01, 0.0).rgb,
+            textureSampleLevel(halves, s, AT + 0.25, 0.0).a
+            + textureSampleLevel(halves, s, AT - 0.25, 0.0).a);",
+    ),
+    (
+        3,
+        "sum += vec4f(textureSampleLevel(map, s, AT, 0.0).rgb,
+            textureSampleLevel(halves, s, AT + 0.01, 0.0).a
+            + textureSampleLevel(halves, s, AT - 0.01, 0.0).a);",
+    ),
+    (
+        3,
+        "sum += vec4f(textureSampleLevel(map, s, AT + 0.01, 0.0).rgb
+            + textureSampleLevel(map, s, AT - 0.01, 0.0).rgb,
+            textureSampleLevel(halves, s, AT, 0.0).a);",
     ),
     // From a buffer, before the varying.
     (
@@ -113,6 +140,28 @@ fn colors(program: &TextProgram, (level, bindings): (Level, &Bindings)) -> Vec<P
         .collect()
 }
 
+/// A shader that samples at `at`.
+fn shader(filter: &str, at: &str) -> String {
+    format!(
+        "let one = min(abs(in.direction.x) + 1.0, 1.0);
+        var sum = vec4f();
+        {}
+        return sum + vec4f(0.0, 0.0, 0.0, dpdx(one));",
+        filter.replace("AT", at)
+    )
+}
+
+/// Shifts that are products stay what they are where products are rounded together with sums.
+#[test]
+fn filters_of_contracted_shaders_are_made_before() {
+    for (count, filter) in FILTERS {
+        let mut source = fragment(&shader(filter, "in.uv"));
+        source.contract();
+        let program = program_of(&source);
+        assert_eq!(program.nondependent_reads(), count, "{filter}");
+    }
+}
+
 #[test]
 fn filters_have_the_same_bits_before_and_in_the_code() {
     let mut all = samplers().to_vec();
@@ -122,17 +171,8 @@ fn filters_have_the_same_bits_before_and_in_the_code() {
         ..SamplerDescriptor::trilinear_repeat()
     });
     for (count, filter) in FILTERS {
-        let shader = |at: &str| {
-            format!(
-                "let one = min(abs(in.direction.x) + 1.0, 1.0);
-                var sum = vec4f();
-                {}
-                return sum + vec4f(0.0, 0.0, 0.0, dpdx(one));",
-                filter.replace("AT", at)
-            )
-        };
-        let before = program(&shader("in.uv"));
-        let in_code = program(&shader("(in.uv * one)"));
+        let before = program(&shader(filter, "in.uv"));
+        let in_code = program(&shader(filter, "(in.uv * one)"));
         assert_eq!(before.nondependent_reads(), count, "{filter}");
         assert_eq!(in_code.nondependent_reads(), 0, "{filter}");
         for &sampler in &all {
@@ -142,11 +182,20 @@ fn filters_have_the_same_bits_before_and_in_the_code() {
                 let context = (level, &bindings);
                 let name = level.name();
                 assert_eq!(
-                    colors(&before, context),
-                    colors(&in_code, context),
+                    anew(filter, "in.uv", context),
+                    anew(filter, "(in.uv * one)", context),
                     "{name} {filter}"
                 );
             }
         }
     }
+}
+
+/// The colours of a program whose memory holds no texels of another level or sampler, which might
+/// be those that it should find.
+fn anew(filter: &str, at: &str, context: (Level, &Bindings)) -> Vec<Packet<u32>> {
+    std::thread::scope(|scope| {
+        let run = || colors(&program(&shader(filter, at)), context);
+        scope.spawn(run).join().expect("it does not panic")
+    })
 }

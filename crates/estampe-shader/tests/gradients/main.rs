@@ -69,7 +69,12 @@ fn fragment(statements: &str) -> StageSource {
 
 /// The program of a fragment shader of these statements.
 fn program(statements: &str) -> TextProgram {
+    program_of(&fragment(statements))
+}
+
+/// The program of a fragment shader.
+fn program_of(fragment: &StageSource) -> TextProgram {
     let vertex = entry_points(VERTEX).remove(0);
-    let made = TextProgram::new(&vertex, Some(&fragment(statements)), 1 << 20);
+    let made = TextProgram::new(&vertex, Some(fragment), 1 << 20);
     made.unwrap_or_else(|error| panic!("{error}"))
 }
