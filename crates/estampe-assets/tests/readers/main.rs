@@ -6,6 +6,8 @@ mod images_hostile;
 mod images_tga_suite;
 mod models_data;
 mod models_obj;
+mod models_obj_limits;
+mod models_obj_materials;
 mod models_off;
 mod models_ply;
 mod models_speed;

@@ -4,11 +4,14 @@ mod amplification;
 pub(super) mod builder;
 mod containers;
 mod geometry;
+mod ktx2;
+mod material_extensions;
 mod materials;
 pub(super) mod meshopt;
 mod nodes;
 mod poses;
 mod rules;
+mod textures;
 mod validator;
 
 use builder::{Builder, error, load, mesh};
