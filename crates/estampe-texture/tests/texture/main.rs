@@ -12,12 +12,16 @@ mod descriptors;
 mod fetch;
 mod gather;
 mod gradients;
+mod mip_levels;
 mod naive;
+mod pixel_blocks;
 mod requests;
 mod several;
 mod squares;
+mod taps;
 mod unorm8;
 mod values;
+mod views;
 
 use estampe_simd::{LANES, Lanes, Level, SimdBase, dispatch, f32x16};
 use estampe_texture::{

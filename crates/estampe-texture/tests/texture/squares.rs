@@ -1,7 +1,8 @@
 //! Filters of half floats in squares of sixteen packets, as full-screen passes ask for them.
 
 use super::Random;
-use super::requests::{Colors, each_tap, packets, places_of, textured};
+use super::requests::{Colors, packets, textured};
+use super::taps::{each_tap, places_of};
 use estampe_simd::{LANES, Level, Packet};
 use estampe_texture::{
     AddressMode, PacketLod, SampledTexture, SamplerDescriptor, TapShifts, TextureFormat,
