@@ -36,6 +36,8 @@ mod textures;
 mod textures_storage;
 mod textures_texels;
 mod textures_views;
+mod textures_views_answers;
+mod textures_views_random;
 mod transfers;
 mod triangles;
 mod varyings;
