@@ -6,7 +6,7 @@ use std::fs;
 use std::path::Path;
 
 /// A folder with three models in two folders; one has a material with a texture.
-fn models() -> Folder {
+pub(super) fn models() -> Folder {
     let folder = Folder::new();
     for below in ["in/a", "in/b"] {
         fs::create_dir_all(folder.path(below)).expect("writable");
@@ -20,7 +20,7 @@ fn models() -> Folder {
 }
 
 /// Runs `estampe batch` on the folder's models, with IN and OUT for their folders.
-fn batch(folder: &Folder, words: &str) -> Run {
+pub(super) fn batch(folder: &Folder, words: &str) -> Run {
     batch_fed(folder, words, &[])
 }
 
@@ -41,12 +41,12 @@ fn batch_fed(folder: &Folder, words: &str, input: &[u8]) -> Run {
     )
 }
 
-fn report(run: &Run) -> Value {
+pub(super) fn report(run: &Run) -> Value {
     serde_json::from_slice(&run.out).expect("a report")
 }
 
 /// The names below a folder, sorted, without the records.
-fn pictures(folder: &Folder, below: &str) -> Vec<String> {
+pub(super) fn pictures(folder: &Folder, below: &str) -> Vec<String> {
     fn walk(at: &Path, prefix: &str, names: &mut Vec<String>) {
         for entry in fs::read_dir(at).expect("a folder").flatten() {
             let name = format!("{prefix}{}", entry.file_name().to_string_lossy());
@@ -63,115 +63,6 @@ fn pictures(folder: &Folder, below: &str) -> Vec<String> {
     walk(&folder.path(below), "", &mut names);
     names.sort();
     names
-}
-
-/// The pictures are those of `estampe render`; what is up to date stays, and what has changed is
-/// drawn again.
-#[test]
-fn pictures_are_drawn_once_and_again_if_something_changed() {
-    let folder = models();
-    let words = "IN/**/*.obj -o OUT/{dir}/{stem}.png";
-    let counts = |run: &Run, drawn: u64, up_to_date: u64| {
-        assert_eq!(run.code, 0, "{}", run.err);
-        let report = report(run);
-        assert_eq!(report["counts"]["drawn"], drawn, "{report}");
-        assert_eq!(report["counts"]["up_to_date"], up_to_date, "{report}");
-    };
-    counts(&batch(&folder, words), 3, 0);
-    assert_eq!(
-        pictures(&folder, "out"),
-        ["a/one.png", "b/three.png", "b/two.png"]
-    );
-    for (model, picture) in [
-        ("in/b/three.obj", "out/b/three.png"),
-        ("in/a/one.obj", "out/a/one.png"),
-    ] {
-        let alone = folder.path("alone.png");
-        let run = estampe(
-            "render {} -o {} --size 48x40",
-            &[&folder.path(model), &alone],
-        );
-        assert_eq!(run.code, 0, "{}", run.err);
-        assert!(
-            fs::read(alone).ok() == fs::read(folder.path(picture)).ok(),
-            "{picture}"
-        );
-    }
-    counts(&batch(&folder, words), 0, 3);
-    // Threads and the SIMD level change no byte.
-    counts(
-        &batch(
-            &folder,
-            &format!("{words} --threads 2 --simd sse2 --parallel 1"),
-        ),
-        0,
-        3,
-    );
-    // A file that a model names.
-    let red = fs::read(folder.path("out/b/three.png")).expect("drawn");
-    folder.with_file("in/b/skin.mtl", "newmtl skin\nKd 0 1 0\n");
-    counts(&batch(&folder, words), 1, 2);
-    assert!(fs::read(folder.path("out/b/three.png")).expect("drawn") != red);
-    // The model.
-    folder.with_file("in/a/one.obj", TETRAHEDRON.replace("v 1 0 0", "v 3 0 0"));
-    counts(&batch(&folder, words), 1, 2);
-    // The picture, and its absence.
-    folder.with_file("out/a/one.png", "not a picture");
-    fs::remove_file(folder.path("out/b/two.png")).expect("drawn");
-    counts(&batch(&folder, words), 2, 1);
-    // An option, and all.
-    counts(&batch(&folder, &format!("{words} --shading flat")), 3, 0);
-    counts(
-        &batch(&folder, &format!("{words} --shading flat --force")),
-        3,
-        0,
-    );
-    // A record that was cut off.
-    folder.with_file("out/a/.estampe/one.png.json", "{\"picture\":");
-    counts(&batch(&folder, &format!("{words} --shading flat")), 1, 2);
-}
-
-/// The picture is drawn again if a texture is found elsewhere.
-#[test]
-fn textures_that_are_searched_are_in_the_record() {
-    let folder = models();
-    let mtl = "newmtl skin\nmap_Kd D:\\art\\skin.tga\n";
-    folder.with_file("in/b/skin.mtl", mtl);
-    let tga = |blue: u8| {
-        let header = [0, 0, 2, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 1, 0, 24, 0];
-        [&header[..], &[blue, 0, 0]].concat()
-    };
-    let library = folder.path("library");
-    folder.with_file("library/deep/skin.tga", tga(255));
-    let root = library.to_str().expect("ASCII");
-    let words = format!("IN/b/three.obj -o OUT/three.png --root {root}");
-    let run_again = |drawn: u64, warnings: usize| {
-        let run = batch(&folder, &words);
-        assert_eq!(run.code, 0, "{}", run.err);
-        let said = report(&run);
-        assert_eq!(said["counts"]["drawn"], drawn, "{said}");
-        let warned = said["pictures"][0]["warnings"].as_array().map(Vec::len);
-        assert_eq!(warned, Some(warnings), "{said}");
-        fs::read(folder.path("out/three.png")).expect("drawn")
-    };
-    let blue = run_again(1, 0);
-    assert!(run_again(0, 0) == blue);
-    folder.with_file("in/textures/skin.tga", tga(0));
-    let black = run_again(1, 0);
-    assert!(black != blue && run_again(0, 0) == black);
-    fs::remove_file(folder.path("in/textures/skin.tga")).expect("written");
-    assert!(run_again(1, 0) == blue);
-    fs::remove_file(folder.path("library/deep/skin.tga")).expect("written");
-    let plain = run_again(1, 1);
-    assert!(plain != blue && run_again(0, 0) == plain);
-
-    let run = batch(&folder, "IN/b/three.obj -o OUT/three.png --root IN/none");
-    assert_eq!(run.code, 2, "{}", run.err);
-    assert!(
-        run.err.contains("in/none: this is no folder"),
-        "{}",
-        run.err
-    );
 }
 
 #[test]
@@ -334,118 +225,6 @@ fn a_picture_that_would_replace_another_model_is_an_error() {
     assert!(run.err.contains("would replace a model"), "{}", run.err);
 }
 
-/// The pictures of a job file are those of `estampe render` with its options.
-#[test]
-fn job_files_have_pictures_with_options_of_their_own() {
-    let folder = models();
-    let (model, other) = (folder.path("in/a/one.obj"), folder.path("in/b/two.obj"));
-    let out = folder.path("out");
-    let toml = format!(
-        "[options]\nsize = '40x30'\nshading = 'flat'\n\
-         [[jobs]]\ninput = '{0}'\noutput = '{2}/{{stem}}.png'\n\
-         [[jobs]]\ninput = '{1}'\noutput = '{2}/b.png'\n\
-         [jobs.options]\nsize = '20x20'\northo = true\nazimuth = -20\nlight = ['1,1,1', '0,1,0']\n",
-        model.display(),
-        other.display(),
-        out.display()
-    );
-    let toml = folder.with_file("jobs.toml", toml);
-    let json = serde_json::json!({
-        "options": { "size": "40x30", "shading": "flat" },
-        "jobs": [
-            { "input": model, "output": format!("{}/{{stem}}.png", out.display()) },
-            { "input": other, "output": format!("{}/b.png", out.display()), "options": {
-                "size": "20x20", "ortho": true, "azimuth": -20, "light": ["1,1,1", "0,1,0"] } },
-        ],
-    });
-    let json = folder.with_file("jobs.json", json.to_string());
-    let run = estampe("batch --job-file {} --report -", &[&toml]);
-    assert_eq!(run.code, 0, "{}", run.err);
-    let expected = [
-        (&model, "one.png", "--size 40x30 --shading flat"),
-        (
-            &other,
-            "b.png",
-            "--size 20x20 --shading flat --ortho --azimuth -20 --light 1,1,1 --light 0,1,0",
-        ),
-    ];
-    for (model, picture, options) in expected {
-        let alone = folder.path("alone.png");
-        let run = estampe(&format!("render {{}} -o {{}} {options}"), &[model, &alone]);
-        assert_eq!(run.code, 0, "{}", run.err);
-        assert!(
-            fs::read(alone).ok() == fs::read(out.join(picture)).ok(),
-            "{picture}"
-        );
-    }
-    // The same jobs in the other form are up to date.
-    let run = estampe("batch --job-file {} --report -", &[&json]);
-    assert_eq!(report(&run)["counts"]["up_to_date"], 2, "{}", run.err);
-}
-
-#[test]
-fn mistakes_in_job_files_have_a_line() {
-    let folder = Folder::new();
-    let job = "[[jobs]]\ninput = 'builtin.obj'\noutput = 'x.png'\n";
-    for (text, problem) in [
-        (
-            "[options]\n\nsiez = '4x4'\n",
-            "line 3: unknown option `siez`",
-        ),
-        ("[options]\nsize = 'wide'\n", "line 2: invalid value 'wide'"),
-        (
-            "[options]\northo = 'yes'\n",
-            "line 2: `ortho` is true or false",
-        ),
-        (
-            "[options]\nsize = ['4x4']\n",
-            "line 2: `size` has one value",
-        ),
-        (
-            "[options]\nthreads = 2\n",
-            "line 2: `threads` is an option of the command",
-        ),
-        ("\nframes = 3\n", "line 2: unknown field `frames`"),
-        (
-            "[options]\nview = 'iso'\nazimuth = 5\n",
-            "job 1 (builtin.obj): ",
-        ),
-        ("[[jobs]\n", "line 1: "),
-    ] {
-        let file = folder.with_file("jobs.toml", format!("{text}{job}"));
-        let run = estampe("batch --job-file {}", &[&file]);
-        assert_eq!(run.code, 2, "{text}: {}", run.err);
-        assert!(run.err.contains(problem), "{text}: {}", run.err);
-    }
-    let text = "{\n \"jobs\": [{ \"input\": \"a\", \"output\": \"b\",\n  \"size\": 3 }]}";
-    let file = folder.with_file("jobs.json", text);
-    let run = estampe("batch --job-file {}", &[&file]);
-    assert!(run.err.contains("unknown field `size`"), "{}", run.err);
-    assert!(run.err.contains("line 3"), "{}", run.err);
-    let file = folder.with_file("right.toml", job);
-    let run = estampe("batch --job-file {} --ortho", &[&file]);
-    assert!(
-        run.code == 2 && run.err.contains("have no effect"),
-        "{}",
-        run.err
-    );
-}
-
-/// The schema has every option of a picture, with its kind.
-#[test]
-fn the_schema_of_job_files_lists_the_options() {
-    let run = estampe("schema", &[]);
-    let schema = report(&run);
-    let options = &schema["$defs"]["options"]["properties"];
-    assert_eq!(options["ortho"]["type"], "boolean");
-    assert_eq!(options["light"]["anyOf"][1]["type"], "array");
-    assert_eq!(
-        options["size"]["type"],
-        serde_json::json!(["string", "number"])
-    );
-    assert!(options["threads"].is_null() && options["help"].is_null());
-}
-
 /// Files of passes are those of `render`, and one that is missing is drawn again.
 #[test]
 fn passes_are_files_or_one_openexr() {
@@ -490,20 +269,4 @@ fn passes_are_files_or_one_openexr() {
         assert_eq!(run.code, 2, "{words}: {}", run.err);
         assert!(run.err.contains(problem), "{words}: {}", run.err);
     }
-}
-
-#[test]
-fn job_files_have_passes() {
-    let folder = models();
-    let text = format!(
-        "[options]\nsize = '20x20'\npass = ['color', 'uv']\n[[jobs]]\ninput = '{}'\noutput = '{}'\n",
-        folder.path("in/a/one.obj").display(),
-        folder.path("out/{pass}.png").display()
-    );
-    let jobs = folder.with_file("jobs.toml", text);
-    let run = estampe("batch --job-file {} --report -", &[&jobs]);
-    assert_eq!(run.code, 0, "{}", run.err);
-    assert_eq!(pictures(&folder, "out"), ["color.png", "uv.png"]);
-    let beside = estampe("batch --job-file {} --pass depth", &[&jobs]);
-    assert!(beside.err.contains("beside --job-file"), "{}", beside.err);
 }

@@ -2,6 +2,8 @@
 
 mod batch;
 mod batch_cameras;
+mod batch_jobs;
+mod batch_records;
 mod book;
 mod cameras;
 mod completions;
