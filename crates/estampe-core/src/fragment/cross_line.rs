@@ -1,11 +1,12 @@
 //! Depth and varyings of fragments of sixteen small lines, sixteen fragments at a time.
 //!
-//! As of [triangles](super::cross_triangle), each lane of a row is a pixel of any of a packet's
+//! As of [triangles](super::cross_fragments), each lane of a row is a pixel of any of a packet's
 //! lines. The values at a line's start, and what the way to its end changes of them, are computed
 //! for the sixteen lines together; a row's lanes take theirs by permutations.
 
-use super::cross_triangle::{Row, bits_of_row, fetch_flat, fetch_rows, of_lanes};
+use super::cross_fragments::{Row, bits_of_row};
 use super::interpolate::{VaryingSource, smooth_derivatives};
+use super::vertex_rows::{fetch_flat, fetch_rows};
 use crate::bounds::lines::LinePacket;
 use crate::geometry::line_style::LineShape;
 use estampe_simd::{
@@ -239,4 +240,10 @@ impl CrossLines {
 #[inline(always)]
 fn mix<S: Lanes>(s: S, of: &[Packet<f32>; 2], lane: u32x16<S>, t: f32x16<S>) -> f32x16<S> {
     of_lanes(s, &of[0], lane) + of_lanes(s, &of[1], lane) * t
+}
+
+/// A value of the lanes' primitives.
+#[inline(always)]
+fn of_lanes<S: Lanes>(s: S, values: &Packet<f32>, lane: u32x16<S>) -> f32x16<S> {
+    s.permute_f32(f32x16::load_array_ref(s, &values.0), lane)
 }

@@ -1,128 +1,17 @@
 //! Varyings of fragments of sixteen triangles, sixteen fragments at a time.
 //!
-//! If fragments need no neighbours, a packet need not be 4×4 pixels of one triangle: in a *row*,
-//! each lane is a pixel of any of a packet's triangles. Planes are made for the sixteen triangles
-//! together; a row's lanes take theirs by permutations, so interpolation costs little more than it
-//! does for one triangle, and no lane is empty but in the last row.
+//! Planes are made for the sixteen triangles together; the lanes of a
+//! [row](super::cross_fragments) take theirs by permutations, so interpolation costs little more
+//! than it does for one triangle.
 
+use super::cross_fragments::{Row, bits_of_row};
 use super::interpolate::{VaryingSource, smooth_derivatives};
+use super::vertex_rows::{fetch_flat, fetch_rows};
 use crate::bounds::lane_order::{AnyOrder, LaneOrder};
-use crate::bounds::primitives::{TrianglePacket, VertexRef};
+use crate::bounds::primitives::TrianglePacket;
 use crate::bounds::triangle_edges::TriangleEdges;
-use crate::raster::pixel_list::Pixels;
-use crate::raster::small::PIXELS;
 use estampe_simd::{Bytes, LANES, Lanes, Packet, Select, SimdBase, f32x16, u32x16};
 use estampe_types::Interpolation;
-
-/// Fragments of one packet's small triangles in rows of sixteen, the first of which may hold
-/// fragments of other packets already.
-#[derive(Debug)]
-#[repr(C, align(64))]
-pub(crate) struct CrossFragments {
-    /// The fragments' pixels, with room for a row that is open, and for one that is written too
-    /// much.
-    pixels: [u32; Self::ROOM],
-    /// The first fragment's place.
-    begin: usize,
-    end: usize,
-    /// The triangles that have fragments.
-    pub(crate) lanes: u16,
-}
-
-/// Lanes of a row that are fragments of the packet at hand.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Row<S: Lanes> {
-    pub(crate) pixels: Pixels<S>,
-    pub(crate) lanes: u16,
-    /// True if other lanes hold fragments already.
-    pub(crate) is_open: bool,
-}
-
-impl<S: Lanes> Row<S> {
-    /// The lanes of the triangles, mostly as a window: a row's fragments are in the order of their
-    /// triangles.
-    #[inline(always)]
-    pub(crate) fn order(self, s: S) -> AnyOrder<S> {
-        let mut lane = self.pixels.lane();
-        if const { S::HAS_WINDOWS } && self.is_open {
-            // Lanes that hold fragments already are of any triangles.
-            let first = <u32x16<S> as SimdBase<S>>::splat(s, self.lanes.trailing_zeros());
-            lane = s
-                .mask_from_bits(self.lanes)
-                .select(lane, s.permute(lane, first));
-        }
-        AnyOrder::new(s, lane)
-    }
-}
-
-impl Default for CrossFragments {
-    fn default() -> Self {
-        Self {
-            pixels: [0; Self::ROOM],
-            begin: 0,
-            end: 0,
-            lanes: 0,
-        }
-    }
-}
-
-impl CrossFragments {
-    /// All pixels of sixteen triangles, and two rows more.
-    pub(crate) const ROOM: usize = (PIXELS + 2) * LANES;
-
-    /// Begins the fragments of a packet, behind so many fragments of others in the first row: below
-    /// [`LANES`]. Gives the memory for all pixels.
-    #[inline(always)]
-    pub(crate) fn begin(&mut self, open: usize) -> &mut [u32; Self::ROOM] {
-        (self.begin, self.end) = (open, open);
-        self.lanes = 0;
-        &mut self.pixels
-    }
-
-    /// Ends the fragments, which are of the triangles in `lanes`.
-    #[inline(always)]
-    pub(crate) fn end(&mut self, end: usize, lanes: u16) {
-        (self.end, self.lanes) = (end, lanes);
-        // Lanes that are not used repeat a fragment: another's numbers could be slow.
-        let pixels = &mut self.pixels;
-        if let Some(&last) = pixels.get(end.wrapping_sub(1))
-            && let Some(behind) = pixels.get_mut(end..).and_then(<[u32]>::first_chunk_mut)
-        {
-            *behind = [last; LANES];
-        }
-    }
-
-    #[inline(always)]
-    pub(crate) fn is_empty(&self) -> bool {
-        self.begin == self.end
-    }
-
-    /// The number of rows.
-    #[inline(always)]
-    pub(crate) fn rows(&self) -> usize {
-        self.end.div_ceil(LANES)
-    }
-
-    /// The number of fragments in the last row, if it is not full.
-    #[inline(always)]
-    pub(crate) fn open(&self) -> usize {
-        self.end % LANES
-    }
-
-    #[inline(always)]
-    #[expect(clippy::cast_possible_truncation, reason = "sixteen bits")]
-    pub(crate) fn row<S: Lanes>(&self, s: S, number: usize) -> Row<S> {
-        let (rows, _) = self.pixels.as_chunks();
-        let first = number * LANES;
-        let from = self.begin.saturating_sub(first);
-        let to = (self.end - first).min(LANES);
-        Row {
-            pixels: Pixels(u32x16::load_array_ref(s, &rows[number])),
-            lanes: ((1u32 << to) - (1 << from)) as u16,
-            is_open: from != 0,
-        }
-    }
-}
 
 /// Planes of all varyings of sixteen triangles: by scalar, then by lane.
 #[derive(Debug, Default)]
@@ -370,80 +259,6 @@ impl CrossPlanes {
     }
 }
 
-/// Transposes the varyings of the vertices of some lanes into rows.
-#[inline(always)]
-pub(super) fn fetch_rows<S: Lanes>(
-    s: S,
-    rows: &mut [Packet<f32>],
-    vertices: &[VertexRef; LANES],
-    lanes: u16,
-    source: &VaryingSource<'_>,
-) {
-    let n = source.modes.len();
-    // Lanes that are not wanted repeat one that is: theirs may be far away, or those of another
-    // draw.
-    let wanted = s.mask_from_bits(lanes);
-    let lane = lanes.trailing_zeros() as usize % LANES;
-    let one = <u32x16<S> as SimdBase<S>>::splat(s, vertices[lane].0);
-    let all = u32x16::load_array(s, vertices.map(|vertex| vertex.0));
-    let vertices = wanted.select(all, one);
-    if n < 2 {
-        for row in rows {
-            for (to, vertex) in row.0.iter_mut().zip(vertices.to_array()) {
-                *to = source.of(VertexRef(vertex))[0];
-            }
-        }
-        return;
-    }
-    let mut first = 0;
-    while first < n {
-        // The last four columns overlap those before them.
-        let at = first.min(n.saturating_sub(4));
-        let columns = source.four_of(s, vertices, at);
-        for (row, column) in rows[at..].iter_mut().zip(columns) {
-            column.store_array(&mut row.0);
-        }
-        first += 4;
-    }
-}
-
-/// Flat varyings are the provoking vertex's.
-#[inline(never)]
-pub(super) fn fetch_flat(
-    rows: &mut [Packet<f32>],
-    provoking: &[VertexRef; LANES],
-    lanes: u16,
-    source: &VaryingSource<'_>,
-) {
-    let mut left = lanes;
-    while left != 0 {
-        let lane = left.trailing_zeros() as usize % LANES;
-        left &= left - 1;
-        let values = source.of(provoking[lane]);
-        let rows = rows.iter_mut().zip(values);
-        for ((row, value), mode) in rows.zip(source.modes) {
-            if *mode == Interpolation::Flat {
-                row.0[lane] = *value;
-            }
-        }
-    }
-}
-
-/// A value of the lanes' primitives.
-#[inline(always)]
-pub(super) fn of_lanes<S: Lanes>(s: S, values: &Packet<f32>, lane: u32x16<S>) -> f32x16<S> {
-    s.permute_f32(f32x16::load_array_ref(s, &values.0), lane)
-}
-
-/// The lanes of a row whose bit is set for their triangle.
-#[inline(always)]
-pub(crate) fn bits_of_row<S: Lanes>(s: S, bits: u16, row: Row<S>) -> u16 {
-    let splat = |value| <u32x16<S> as SimdBase<S>>::splat(s, value);
-    // The bit of each lane's triangle is moved to the sign.
-    let signs = splat(u32::from(bits)) << (splat(31) - row.pixels.lane());
-    s.sign_bits(signs.bitcast()) & row.lanes
-}
-
 /// The planes of the lanes' triangles at the lanes' pixels.
 #[inline(always)]
 fn evaluate<S: Lanes>(
@@ -459,6 +274,7 @@ fn evaluate<S: Lanes>(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::bounds::primitives::VertexRef;
     use crate::fragment::interpolate::{VaryingPlanes, set_planes};
     use estampe_simd::{Level, dispatch};
 
@@ -536,47 +352,6 @@ mod tests {
                 planes.copy_lane(lane, &modes, &mut copied);
                 let bits = |of: &[f32]| -> Vec<u32> { of.iter().map(|x| x.to_bits()).collect() };
                 assert_eq!(bits(&copied), bits(&expected), "{level:?}, lane {lane}");
-            }
-        }
-    }
-
-    /// Vertices made by clipping, and the last one of a list, are read by themselves.
-    #[test]
-    fn vertices_are_read_from_both_lists() {
-        const CLIPPED: u32 = VertexRef::CLIPPED;
-        let lists: [[u32; 4]; 4] = [
-            [0, 3, 7, 12],
-            [19, 0, 18, 16],
-            [5, CLIPPED, 9, CLIPPED | 4],
-            [CLIPPED | 2, CLIPPED | 4, CLIPPED, CLIPPED | 1],
-        ];
-        for scalars in [2_usize, 3, 4, 5, 9] {
-            let numbers = |count: usize, first: usize| -> Vec<f32> {
-                let all = first..first + count * scalars;
-                all.map(|number| number as f32).collect()
-            };
-            let (shaded, clipped) = (numbers(20, 0), numbers(5, 1000));
-            let source = VaryingSource {
-                shaded: &shaded,
-                clipped: &clipped,
-                modes: &vec![Interpolation::Smooth; scalars],
-                gradients: &[],
-            };
-            for of_lanes in lists {
-                let mut vertices = [VertexRef(0); LANES];
-                for (vertex, of_lane) in vertices.iter_mut().zip(of_lanes.iter().cycle()) {
-                    *vertex = VertexRef(*of_lane);
-                }
-                for level in Level::all_available() {
-                    let mut rows = vec![Packet::default(); scalars];
-                    dispatch!(@wide level,
-                        s => fetch_rows(s, &mut rows, &vertices, u16::MAX, &source),
-                        scalar => continue);
-                    for (lane, vertex) in vertices.into_iter().enumerate() {
-                        let found: Vec<f32> = rows.iter().map(|row| row.0[lane]).collect();
-                        assert_eq!(found, source.of(vertex), "{level:?}, {vertex:?}");
-                    }
-                }
             }
         }
     }

@@ -20,6 +20,10 @@ pub(crate) mod last_packet;
 
 mod centroid;
 
+pub(crate) mod cross_fragments;
+
+mod vertex_rows;
+
 pub(crate) mod cross_triangle;
 
 pub(crate) mod cross_line;

@@ -1,6 +1,7 @@
 //! The packets of the tile that the boxes of small triangles touch, sixteen boxes at a time.
 
-use super::small::{SmallBoxes, spread};
+use super::covered_pixels::spread;
+use super::small::SmallBoxes;
 use estampe_simd::{LANES, Lanes, Select, SimdBase, u32x16};
 
 impl<const N: usize> SmallBoxes<N> {

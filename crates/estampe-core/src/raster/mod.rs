@@ -25,9 +25,13 @@ pub(crate) mod convex;
 
 pub(crate) mod parts;
 
-mod box_packets;
+mod edge_lanes;
 
 pub(crate) mod small;
+
+mod covered_pixels;
+
+mod box_packets;
 
 pub(crate) mod small_lines;
 

@@ -14,7 +14,7 @@
 //! and is the one that was computed, and elsewhere its sign tells on which side of the edge all of
 //! the tile is.
 
-use super::small::{Corners, EdgeFrom, edges};
+use super::edge_lanes::{Corners, EdgeFrom, edges};
 use super::triangle::{Edge, TileTriangle};
 use super::{SampleSet, TileShape};
 use crate::bounds::pixel_rect::PixelRect;

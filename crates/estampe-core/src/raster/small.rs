@@ -11,13 +11,11 @@
 //!       t₀ t₁ t₂ … t₁₅                 E = c + a·x + b·y ≥ 0 of three edges, for sixteen triangles
 //! ```
 
+use super::edge_lanes::{Corners, EdgeLanes, edges};
 use super::parts::Parts;
-use super::pixel_list::{PixelList, Pixels};
 use super::{SampleSet, TileShape};
-use crate::bounds::lane_order::{AnyOrder, LaneOrder};
 use crate::bounds::pixel_rect::PixelRect;
 use crate::bounds::primitives::TrianglePacket;
-use crate::depth_format::StoredDepth;
 use estampe_simd::{
     Bytes, LANES, Lanes, Packet, Select, SimdBase, SimdCvtFloat, f32x16, i32x16, mask32x16, u32x16,
 };
@@ -61,17 +59,17 @@ pub(super) struct BoxPixels<S: Lanes> {
 #[repr(C, align(64))]
 pub(crate) struct SmallBoxes<const N: usize> {
     /// By sample and lane: bit 8·row + column is that pixel of its box, rows 0 to 3 and 4 to 7.
-    covered: [[Packet<u32>; 2]; N],
+    pub(super) covered: [[Packet<u32>; 2]; N],
     /// Rows of the largest box.
-    rows: usize,
+    pub(super) rows: usize,
     /// By lane: column and row of the box's first pixel in the tile, the row in the upper half.
     pub(super) first: Packet<u32>,
     /// By lane: columns and rows of the box, less one, the rows in the upper half; of
     /// [small triangles](Self::cover_boxes) alone.
     pub(super) extent: [u32; LANES],
     /// By lane: the distance of that pixel's first sample from the planes' origin.
-    from_x: [f32; LANES],
-    from_y: [f32; LANES],
+    pub(super) from_x: [f32; LANES],
+    pub(super) from_y: [f32; LANES],
 }
 
 impl<const N: usize> Default for SmallBoxes<N> {
@@ -277,174 +275,6 @@ impl<const N: usize> SmallBoxes<N> {
         (f32x16::float_from(from_x) * (1.0 / 256.0)).store_array(&mut self.from_x);
         (f32x16::float_from(from_y) * (1.0 / 256.0)).store_array(&mut self.from_y);
     }
-
-    /// Lists the pixels of the triangles in `lanes` of which one sample is covered.
-    #[inline(always)]
-    pub(crate) fn list<S: Lanes>(&self, s: S, sample: usize, lanes: u16, list: &mut PixelList) {
-        self.list_covered(s, &self.covered[sample % N], lanes, list);
-    }
-
-    /// Lists the pixels of the triangles in `lanes` of which any sample is covered.
-    #[inline(always)]
-    pub(crate) fn list_any<S: Lanes>(&self, s: S, lanes: u16, list: &mut PixelList) {
-        if const { N == 1 } {
-            return self.list(s, 0, lanes, list);
-        }
-        self.list_covered(s, &self.covered_by_any(s), lanes, list);
-    }
-
-    /// Lists the first pixels of the quads of the triangles in `lanes` of which any sample is
-    /// covered. Boxes must be [those of quads](Boxes::quads).
-    #[inline(always)]
-    pub(crate) fn list_quads<S: Lanes>(&self, s: S, lanes: u16, list: &mut PixelList) {
-        let mut any = self.covered_by_any(s);
-        for rows in &mut any {
-            let pixels = u32x16::load_array_ref(s, &rows.0);
-            let columns = pixels | (pixels >> 1);
-            let quads = (columns | (columns >> 8)) & splat_u32(s, 0x0055_0055);
-            quads.store_array(&mut rows.0);
-        }
-        self.list_covered(s, &any, lanes, list);
-    }
-
-    /// The pixels of which any sample is covered.
-    #[inline(always)]
-    fn covered_by_any<S: Lanes>(&self, s: S) -> [Packet<u32>; 2] {
-        let mut any = self.covered[0];
-        for covered in &self.covered[1..] {
-            for (any, covered) in any.iter_mut().zip(covered) {
-                let of = |rows: &Packet<u32>| u32x16::load_array_ref(s, &rows.0);
-                let both = of(any) | of(covered);
-                both.store_array(&mut any.0);
-            }
-        }
-        any
-    }
-
-    /// Lists pixels of the triangles in `lanes`.
-    #[inline(always)]
-    fn list_covered<S: Lanes>(
-        &self,
-        s: S,
-        covered: &[Packet<u32>; 2],
-        lanes: u16,
-        list: &mut PixelList,
-    ) {
-        // Four rows of a box are a word.
-        match self.rows {
-            0..=4 => list.fill::<S, 1>(s, covered, lanes),
-            _ => list.fill::<S, 2>(s, covered, lanes),
-        }
-    }
-
-    /// The lanes of sixteen pixels whose sample is covered.
-    #[inline(always)]
-    pub(crate) fn covers<S: Lanes>(
-        &self,
-        s: S,
-        sample: usize,
-        pixels: Pixels<S>,
-        order: impl LaneOrder<S>,
-    ) -> u16 {
-        let [upper, lower] = &self.covered[sample % N];
-        let mut rows = order.permuted_words(s, upper);
-        let bit = pixels.bit(s);
-        if self.rows > 4 {
-            let lower = order.permuted_words(s, lower);
-            let is_upper = (bit & splat_u32(s, 32)).simd_eq(splat_u32(s, 0));
-            rows = is_upper.select(rows, lower);
-        }
-        // The bit is moved to the sign.
-        let shifted = rows << (splat_u32(s, 31) - (bit & splat_u32(s, 31)));
-        s.sign_bits(shifted.bitcast())
-    }
-
-    /// The distances of sixteen pixels' first samples from their planes' origin, exact.
-    #[inline(always)]
-    pub(crate) fn distances<S: Lanes>(
-        &self,
-        s: S,
-        pixels: Pixels<S>,
-        order: impl LaneOrder<S>,
-    ) -> [f32x16<S>; 2] {
-        let [column, row] = [pixels.column(s), pixels.row(s)];
-        let from_x = order.permuted(s, &self.from_x);
-        let from_y = order.permuted(s, &self.from_y);
-        [
-            from_x + f32x16::float_from(column),
-            from_y + f32x16::float_from(row),
-        ]
-    }
-
-    /// Where sixteen pixels are in the tile: packet·16 + lane.
-    #[inline(always)]
-    pub(crate) fn pixels_in_tile<S: Lanes>(
-        &self,
-        s: S,
-        pixels: Pixels<S>,
-        order: impl LaneOrder<S>,
-    ) -> u32x16<S> {
-        let first = order.permuted_words(s, &self.first);
-        let step: u32x16<S> = (pixels.column(s) | (pixels.row(s) << 16)).bitcast();
-        spread(s, first + step)
-    }
-
-    /// The places of sixteen pixels' first samples in the tile.
-    #[inline(always)]
-    #[expect(clippy::cast_possible_truncation, reason = "four samples at most")]
-    fn places<S: Lanes>(&self, s: S, pixels: Pixels<S>, order: impl LaneOrder<S>) -> u32x16<S> {
-        let pixels = self.pixels_in_tile(s, pixels, order);
-        if const { N == 1 } {
-            return pixels;
-        }
-        // The lines of a packet's samples lie one after the other.
-        let lane = pixels & <u32x16<S> as SimdBase<S>>::splat(s, LANES as u32 - 1);
-        (pixels - lane) * (N as u32) + lane
-    }
-
-    /// Places in the tile and depths of one sample of all listed pixels.
-    #[inline(always)]
-    #[expect(clippy::cast_possible_truncation, reason = "four samples at most")]
-    pub(crate) fn locate<S: Lanes>(
-        &self,
-        s: S,
-        packet: &TrianglePacket,
-        (stored, samples, sample): (StoredDepth, SampleSet<N>, usize),
-        list: &mut PixelList,
-    ) {
-        let offsets = samples.offsets();
-        let [from_first_x, from_first_y] =
-            [0, 1].map(|axis| offsets[sample % N][axis] - offsets[0][axis]);
-        let line = <u32x16<S> as SimdBase<S>>::splat(s, (sample * LANES) as u32);
-        for (pixels, (places, depths)) in list.sixteens() {
-            let pixels = Pixels(s.widen(pixels));
-            let order = AnyOrder::new(s, pixels.lane());
-            let [mut x, mut y] = self.distances(s, pixels, order);
-            if const { N > 1 } {
-                (x, y) = (x + from_first_x, y + from_first_y);
-            }
-            let depth = packet.z.of_lanes(s, order).at([x, y]);
-            stored.of(s, depth).store_array(depths);
-            (self.places(s, pixels, order) + line).store_array(places);
-        }
-    }
-}
-
-#[inline(always)]
-fn splat_u32<S: Lanes>(s: S, value: u32) -> u32x16<S> {
-    SimdBase::splat(s, value)
-}
-
-/// Morton order: the index in its tile of a pixel whose column is in the lower half and whose row
-/// is in the upper half, six bits each.
-#[inline(always)]
-pub(super) fn spread<S: Lanes>(s: S, v: u32x16<S>) -> u32x16<S> {
-    let mask = |bits: u32| <u32x16<S> as SimdBase<S>>::splat(s, bits);
-    let v = v & mask(0x3F_003F);
-    let v = (v | (v << 4)) & mask(0x030F_030F);
-    let v = (v | (v << 2)) & mask(0x0333_0333);
-    let v = (v | (v << 1)) & mask(0x0555_0555);
-    (v | (v >> 15)) & mask(0xFFF)
 }
 
 /// The least and the greatest x, then y.
@@ -459,122 +289,6 @@ pub(super) fn axis_ends<const N: usize>(positions: &[[i32; 2]; N]) -> [[i32; 2];
         }
     }
     ends
-}
-
-/// The corners of sixteen triangles.
-pub(super) struct Corners<S: Lanes> {
-    pub(super) x: [i32x16<S>; 3],
-    pub(super) y: [i32x16<S>; 3],
-    /// The least and the greatest x. Those of y are the first and the last.
-    pub(super) x_ends: [i32x16<S>; 2],
-}
-
-impl<S: Lanes> Corners<S> {
-    #[inline(always)]
-    pub(super) fn new(s: S, packet: &TrianglePacket) -> Self {
-        let load = |lanes: &[i32; LANES]| i32x16::load_array_ref(s, lanes);
-        let x = [load(&packet.x[0]), load(&packet.x[1]), load(&packet.x[2])];
-        let y = [load(&packet.y[0]), load(&packet.y[1]), load(&packet.y[2])];
-        Self {
-            x,
-            y,
-            x_ends: [x[0].min(x[1]).min(x[2]), x[0].max(x[1]).max(x[2])],
-        }
-    }
-}
-
-/// One edge of sixteen triangles: its value at a point, and what 1/256 pixel further adds, to the
-/// right and below.
-#[derive(Clone, Copy)]
-pub(super) struct EdgeLanes<S: Lanes> {
-    pub(super) value: i32x16<S>,
-    pub(super) a: i32x16<S>,
-    pub(super) b: i32x16<S>,
-}
-
-/// One edge of sixteen triangles, and the way to a point from a vertex on it: the edge's value
-/// there is `a·x + b·y + bias`.
-#[derive(Clone, Copy)]
-pub(super) struct EdgeFrom<S: Lanes> {
-    pub(super) a: i32x16<S>,
-    pub(super) b: i32x16<S>,
-    /// The point's distance from the vertex.
-    pub(super) way: [i32x16<S>; 2],
-    /// 0, or −1 for the fill rule.
-    pub(super) bias: i32x16<S>,
-}
-
-impl<S: Lanes> EdgeFrom<S> {
-    /// The edge at the point, modulo 2³².
-    #[inline(always)]
-    fn at_point(self) -> EdgeLanes<S> {
-        let Self { a, b, way, bias } = self;
-        EdgeLanes {
-            value: a * way[0] + b * way[1] + bias,
-            a,
-            b,
-        }
-    }
-}
-
-/// The three edges, wound so that inside is ≥ 0, the fill rule folded in, to a point for each
-/// triangle.
-///
-/// Vertices are sorted by (y, x), which decides what is a top or a left edge: clockwise 0→1 and 1→2
-/// where they are level (top) and 2→0 always (left); counter-clockwise 0→2 never, 2→1 and 1→0 where
-/// they rise (left).
-#[inline(always)]
-pub(super) fn edges<S: Lanes>(
-    s: S,
-    packet: &TrianglePacket,
-    corners: &Corners<S>,
-    point: [i32x16<S>; 2],
-) -> [EdgeFrom<S>; 3] {
-    let ([x0, x1, x2], [y0, y1, y2]) = (corners.x, corners.y);
-    let clockwise = s.mask_from_bits(packet.clockwise);
-    let never = s.mask_from_bits(0);
-    let always = s.mask_from_bits(u16::MAX);
-    let (level_01, level_12) = (y0.simd_eq(y1), y1.simd_eq(y2));
-    let wound = Winding { clockwise, point };
-    [
-        wound.edge(s, [x0, y0], [x1, y1], [level_01, !level_01]),
-        wound.edge(s, [x1, y1], [x2, y2], [level_12, !level_12]),
-        wound.edge(s, [x2, y2], [x0, y0], [always, never]),
-    ]
-}
-
-/// The winding of sixteen triangles, and the points at which their edges have values.
-struct Winding<S: Lanes> {
-    clockwise: mask32x16<S>,
-    point: [i32x16<S>; 2],
-}
-
-impl<S: Lanes> Winding<S> {
-    /// The edge from a to b of clockwise triangles, from b to a of others; and where each has its
-    /// samples inside.
-    #[inline(always)]
-    fn edge(
-        &self,
-        s: S,
-        [ax, ay]: [i32x16<S>; 2],
-        [bx, by]: [i32x16<S>; 2],
-        [if_clockwise, if_not]: [mask32x16<S>; 2],
-    ) -> EdgeFrom<S> {
-        let (zero, less) = (
-            <i32x16<S> as SimdBase<S>>::splat(s, 0),
-            <i32x16<S> as SimdBase<S>>::splat(s, -1),
-        );
-        let (a, b) = (ay - by, bx - ax);
-        let a = self.clockwise.select(a, zero - a);
-        let b = self.clockwise.select(b, zero - b);
-        let owns = (self.clockwise & if_clockwise) | (!self.clockwise & if_not);
-        EdgeFrom {
-            a,
-            b,
-            way: [self.point[0] - ax, self.point[1] - ay],
-            bias: owns.select(zero, less),
-        }
-    }
 }
 
 /// The number of columns (or rows) of the largest of some boxes; `span` holds one less of each.

@@ -16,7 +16,8 @@
 #[cfg(test)]
 mod tests;
 
-use super::small::{BoxPixels, EdgeLanes, SIDE, SmallBoxes, axis_ends};
+use super::edge_lanes::EdgeLanes;
+use super::small::{BoxPixels, SIDE, SmallBoxes, axis_ends};
 use super::{SampleSet, TileShape};
 use crate::bounds::lines::LinePacket;
 use crate::bounds::pixel_rect::PixelRect;

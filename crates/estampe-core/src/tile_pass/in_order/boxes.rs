@@ -4,7 +4,8 @@
 //! Their values are the same planes, so the first one's serve both. The packets on the diagonal are
 //! tested and shaded once and not twice, and those of its inside are whole.
 
-use super::{InOrder, WholeBlocks};
+use super::InOrder;
+use super::triangle::WholeBlocks;
 use crate::bounds::primitives::Triangle;
 use crate::fragment::interpolate::DepthPlane;
 use crate::raster::pixel_box::PixelBox;

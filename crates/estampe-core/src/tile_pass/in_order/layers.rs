@@ -1,6 +1,7 @@
 //! Layers of the in-order path: triangles that are blended from the planes of their colours.
 
-use super::{InOrder, WholeBlocks};
+use super::InOrder;
+use super::triangle::WholeBlocks;
 use crate::fragment::interpolate::{DepthPlane, TriangleInterpolant};
 use crate::per_sample::source_over::{ColorPlanes, TileBlock, test_block};
 use estampe_simd::{Lanes, dispatch};

@@ -5,7 +5,7 @@ use super::tests::{run_apart, samples_in};
 use super::{InOrder, InOrderScratch};
 use crate::bounds::lane_order::AnyOrder;
 use crate::depth_format::clamp_depth;
-use crate::fragment::cross_triangle::{Row, bits_of_row};
+use crate::fragment::cross_fragments::{Row, bits_of_row};
 use crate::fragment::fill::lanes_between;
 use crate::fragment::interpolate::{VaryingSource, WindowPixels};
 use crate::fragment::place::indices_of;

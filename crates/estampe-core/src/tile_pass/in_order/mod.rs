@@ -32,6 +32,7 @@ mod dense;
 mod fan;
 mod flush;
 mod layers;
+mod line_or_point;
 mod listed;
 mod shade;
 mod small;
@@ -39,28 +40,22 @@ mod small_lines;
 mod solid;
 mod solid_colors;
 mod tests;
+mod triangle;
 
 use super::fragments::Fragments;
-use super::{HIZ_PACKETS, TileJob, TilePass, TileScratch, TileWork};
+use super::{TileJob, TilePass, TileScratch, TileWork};
 use crate::bounds::bins::BinEntry;
-use crate::bounds::lines::LinePrimitive;
-use crate::bounds::primitives::{PackedTriangle, PointPrimitive, Triangle};
-use crate::fragment::interpolate::{
-    DepthPlane, LineInterpolant, LineOrPoint, PointInterpolant, TriangleInterpolant, VaryingPlanes,
-    VaryingSource, set_planes,
-};
+use crate::bounds::primitives::PackedTriangle;
+use crate::fragment::interpolate::{LineInterpolant, VaryingPlanes, VaryingSource};
 use crate::fragment::last_packet::LastPacket;
 use crate::fragment::queue::{Survivors, packets_in_order};
-use crate::per_sample::hiz::{BlockClasses, HizQuery};
 use crate::per_sample::source_over::Layers;
 use crate::plan::tile_plan::{TestTiming, TilePlan};
 use crate::raster::clip_masks::ClipMasks;
-use crate::raster::conservative::ConservativeTriangle;
-use crate::raster::triangle::TileTriangle;
-use crate::raster::{CoverageList, SampleSet, line, point};
+use crate::raster::{CoverageList, SampleSet};
 use crate::tile_path::TilePath;
 pub(super) use ahead::Ahead;
-use estampe_simd::{LANES, Lane, Lanes};
+use estampe_simd::{LANES, Lane};
 use estampe_types::state::ConservativeMode;
 use fan::{Fan, joins_triangles};
 use shade::PendingQuads;
@@ -351,133 +346,12 @@ impl<'a, 'j, 't, const N: usize> InOrder<'a, 'j, 't, '_, N> {
     }
 }
 
-impl<'a, const N: usize> InOrder<'a, '_, '_, '_, N> {
+impl<const N: usize> InOrder<'_, '_, '_, '_, N> {
     /// True if fragments go to the run of visibility.
     #[inline(always)]
     fn is_shown(&self) -> bool {
         // Its fragments have one sample.
         N == 1 && self.to == FragmentsTo::Visibility
-    }
-
-    /// Draws a triangle alone, or the rectangle of which it is half: `is_box`. Its planes are those
-    /// of a lane of the batch, or made now.
-    #[inline(always)]
-    fn triangle<S: Lanes>(
-        &mut self,
-        s: S,
-        triangle: &Triangle,
-        (is_box, planes_of): (bool, Option<usize>),
-    ) {
-        let (plan, front) = (self.work.plan, triangle.front);
-        let plane = DepthPlane::new(triangle);
-        let blends_blocks = self.blends_blocks && triangle.equal_w;
-        let coverage = if is_box {
-            self.cover_box(triangle, &plane)
-        } else {
-            self.cover(s, triangle, &plane, blends_blocks)
-        };
-        let Some(coverage) = coverage else {
-            return;
-        };
-        if self.stores_in_order {
-            self.scratch.in_order.list.sort();
-        }
-        let mut interpolant = TriangleInterpolant {
-            origin: plane.origin,
-            z: plane.z,
-            iw: triangle.iw,
-            equal_w: triangle.equal_w,
-            planes: VaryingPlanes::default(),
-            modes: self.source.modes,
-            gradients: self.source.gradients,
-            all_smooth: plan.all_smooth,
-        };
-        let is_visible = self.test_early(s, &interpolant, front);
-        if !is_visible && coverage.whole == 0 {
-            return;
-        }
-        // Moved out for the calls, because the interpolant borrows them.
-        let mut planes = std::mem::take(&mut self.planes);
-        if let Some(lane) = planes_of {
-            let of_batch = &self.scratch.in_order.small.planes;
-            of_batch.copy_lane(lane, self.source.modes, &mut planes);
-            self.scratch.statistics.planes_in_lanes += 1;
-        } else {
-            set_planes(s, &mut planes, triangle, &self.source, plan.all_smooth);
-        }
-        interpolant.planes = VaryingPlanes::new(&planes);
-        if self.gathers {
-            if interpolant.is_constant() {
-                self.gather(interpolant.planes.origins(), front);
-                self.planes = planes;
-                return;
-            }
-            self.end_solid();
-        }
-        // Layers are of one sample only.
-        if const { N == 1 } && coverage.whole != 0 {
-            self.add_layer(&interpolant, coverage);
-        } else {
-            self.queue_triangle(&interpolant, front);
-        }
-        self.planes = planes;
-    }
-
-    /// Lists the packets that a triangle covers, less those that hierarchical z rejects. `None` if
-    /// it covers nothing.
-    #[inline(always)]
-    fn cover<S: Lanes>(
-        &mut self,
-        s: S,
-        triangle: &Triangle,
-        plane: &DepthPlane,
-        blends_blocks: bool,
-    ) -> Option<WholeBlocks> {
-        let TileWork {
-            shape,
-            rect,
-            is_whole,
-            blocks,
-            ..
-        } = *self.work;
-        let list = &mut self.scratch.in_order.list;
-        list.clear();
-        if self.conservative != ConservativeMode::Disabled {
-            let mode = self.conservative;
-            ConservativeTriangle::new(triangle, shape, &rect, mode).cover(list);
-            return Some(WholeBlocks::default());
-        }
-        let polygon = TileTriangle::<N>::new(triangle, shape, &rect, self.samples)?;
-        let classes = self.classify(plane, polygon.packets())?;
-        let blocks = if blends_blocks { blocks } else { 0 };
-        let InOrderScratch { list, clip, .. } = &mut self.scratch.in_order;
-        let whole = polygon.cover(s, shape, classes.hidden, blocks, list);
-        if !is_whole && !polygon.is_inside() {
-            list.clip_to(clip.of(&rect));
-        }
-        Some(WholeBlocks {
-            whole,
-            certain: classes.certain,
-        })
-    }
-
-    /// What hierarchical z says of a primitive whose box touches so many packets of the tile;
-    /// `None` if it is hidden everywhere.
-    #[inline(always)]
-    fn classify(&mut self, plane: &DepthPlane, packets: i32) -> Option<BlockClasses> {
-        if !self.uses_hiz || packets <= HIZ_PACKETS {
-            return Some(BlockClasses::of_all(0, 0));
-        }
-        let look = HizQuery {
-            tests: &self.work.plan.tests,
-            plane: *plane,
-            tile: self.work.shape,
-            samples: self.samples,
-            passes_in_vain: false,
-        };
-        let (level, depth) = (self.work.level, &*self.job.depth);
-        let classes = self.scratch.hiz.classify(level, &look, false, depth);
-        (classes.hidden != u16::MAX).then_some(classes)
     }
 
     /// Notes that so many more primitives are drawn next.
@@ -487,79 +361,4 @@ impl<'a, const N: usize> InOrder<'a, '_, '_, '_, N> {
             ahead.step(self.work.level, primitives);
         }
     }
-
-    /// Draws a line alone. Such lines and points enter the SIMD level one by one: they are few, and
-    /// their code is kept out of the loop over triangles.
-    fn line(&mut self, line: LinePrimitive) {
-        let TileWork { shape, rect, .. } = self.work;
-        let list = &mut self.scratch.in_order.list;
-        list.clear();
-        let style = self.work.plan.line_style;
-        if style.plain_rectangle().is_none() {
-            line::cover(&line, style, *shape, rect, list);
-        }
-        let interpolant = LineInterpolant::new(line, style, self.source);
-        if style.is_smooth() {
-            self.smooth = Some(interpolant);
-        }
-        let interpolant = LineOrPoint::Line(interpolant);
-        self.enter_covered(&interpolant, line.front);
-        if style.is_smooth() {
-            // Alpha is scaled by the coverage of this line alone.
-            self.flush();
-            self.smooth = None;
-        }
-    }
-
-    fn point(&mut self, point: &PointPrimitive) {
-        let TileWork { shape, rect, .. } = self.work;
-        let list = &mut self.scratch.in_order.list;
-        list.clear();
-        let is_round = self.work.plan.pipeline.descriptor().primitive.round_points;
-        point::cover(point, is_round, *shape, rect, list);
-        let interpolant = PointInterpolant {
-            point,
-            source: self.source,
-        };
-        let interpolant = LineOrPoint::Point(interpolant);
-        self.enter_covered(&interpolant, point.front);
-    }
-}
-
-impl<const N: usize> InOrder<'_, '_, '_, '_, N> {
-    fn enter_covered(&mut self, interpolant: &LineOrPoint<'_>, front: bool) {
-        dispatch_samples!(N, self.work.level, s => {
-            self.cover_rectangle(s, interpolant);
-            self.covered(s, interpolant, front);
-        });
-    }
-
-    /// Lists the packets that a line covers, if it is a rectangle and nothing else.
-    #[inline(always)]
-    fn cover_rectangle<S: Lanes>(&mut self, s: S, interpolant: &LineOrPoint<'_>) {
-        let TileWork {
-            shape,
-            rect,
-            is_whole,
-            plan,
-            ..
-        } = self.work;
-        if let LineOrPoint::Line(line) = interpolant
-            && let Some(width) = plan.line_style.plain_rectangle()
-        {
-            let InOrderScratch { list, clip, .. } = &mut self.scratch.in_order;
-            line::cover_rectangle(s, (line.primitive(), width), *shape, rect, list);
-            if !is_whole {
-                list.clip_to(clip.of(rect));
-            }
-        }
-    }
-}
-
-/// Blocks of 16×16 pixels that a triangle covers whole, one bit each.
-#[derive(Debug, Clone, Copy, Default)]
-struct WholeBlocks {
-    whole: u16,
-    /// Blocks in which every sample passes the depth test.
-    certain: u16,
 }

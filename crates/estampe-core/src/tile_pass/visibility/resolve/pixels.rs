@@ -11,7 +11,7 @@
 use super::{NONE, Resolver, ShadingGroup};
 use crate::bounds::primitives::TrianglePacket;
 use crate::depth_format::clamp_depth;
-use crate::fragment::cross_triangle::{Row, bits_of_row};
+use crate::fragment::cross_fragments::{Row, bits_of_row};
 use crate::fragment::fill::{lanes_between, masks_of};
 use crate::fragment::interpolate::VaryingSource;
 use crate::fragment::interpolate::WindowPixels;

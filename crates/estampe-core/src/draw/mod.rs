@@ -1,30 +1,33 @@
 //! The page on which the pipeline reads: what a draw is, and the order in which its stages run.
 
-use crate::attachment::{RenderTarget, RowsPlace};
+mod geometry_side;
+mod tile_side;
+
+use crate::attachment::RenderTarget;
 use crate::bounds::chunk::Chunk;
 use crate::bounds::chunk_index::ChunkIndex;
-use crate::bounds::pixel_rect::PixelRect;
-use crate::commands::{Discards, Draw, OcclusionQueries, RenderPass};
-use crate::geometry::chunk::{ChunkScratch, Neighbours, add_part};
+use crate::commands::{Discards, Draw, RenderPass};
+use crate::geometry::chunk::ChunkScratch;
 use crate::geometry::shaded_vertices::{ShadedVertices, VertexJob};
-use crate::geometry::shading::{ShadingScratch, shade};
-use crate::plan::chunk_plan::{ChunkPart, ChunkPlan, VERTEX_CHUNK, part_size};
+use crate::geometry::shading::ShadingScratch;
+use crate::plan::chunk_plan::ChunkPlan;
 use crate::plan::draw_batch::DrawBatch;
 use crate::plan::draw_cursor::DrawCursor;
 use crate::plan::draw_state::DrawState;
 use crate::plan::pass_check::{DrawNeeds, RenderPassError};
 use crate::plan::sub_draw::SubDraw;
-use crate::plan::tile_plan::{TargetFacts, TilePlan, TileState};
+use crate::plan::tile_plan::{TilePlan, TileState};
 use crate::profile::JobTimings;
 use crate::raster::MAX_SAMPLES;
 use crate::recycle::recycled;
 use crate::schedule::{Awake, Executor, ThreadError, ThreadPool};
 use crate::statistics::Statistics;
-use crate::tile_pass::{self, Clear, MAX_TARGETS, TileJob, TilePass, TileScratch, TileWords};
+use crate::tile_pass::{Clear, TileJob, TileScratch};
 use estampe_simd::Level;
-use std::ops::Range;
+use geometry_side::ChunkJob;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Instant;
+use tile_side::TileAttachments;
 
 /// The resources that draws need besides their data: threads, a SIMD level, and memory that is
 /// reused.
@@ -78,25 +81,6 @@ struct Lists {
     tile_states: Vec<TileState<'static>>,
     plans: Vec<TilePlan<'static>>,
     tile_jobs: Vec<TileJob<'static>>,
-}
-
-/// The images that tiles are drawn into.
-#[derive(Debug)]
-struct TileAttachments<'a> {
-    target: &'a mut RenderTarget,
-    /// What is cleared first.
-    clear: &'a Clear,
-    /// True if nothing is drawn into them afterwards.
-    is_last: bool,
-    /// Those that nothing was drawn into before, and that nobody needs afterwards.
-    discards: Discards,
-}
-
-/// A chunk, and the primitives that it takes.
-#[derive(Debug)]
-struct ChunkJob<'a> {
-    chunk: &'a mut Chunk,
-    parts: &'a [ChunkPart],
 }
 
 impl Context {
@@ -318,201 +302,8 @@ impl Context {
             &self.executor
         }
     }
-
-    /// Geometry, first half: every vertex of a group of sub-draws is shaded once and taken to the
-    /// window.
-    fn shade_vertices(
-        &self,
-        executor: &Executor,
-        (batch, group): (&DrawBatch<'_>, Range<usize>),
-        memory: &mut Memory,
-    ) {
-        memory.vertices.resize_for(&batch.group);
-        let mut jobs = recycled(std::mem::take(&mut memory.lists.vertex_jobs));
-        let spans = batch.spans(group.clone());
-        let size = part_size(batch.group.count, executor.threads(), VERTEX_CHUNK);
-        memory
-            .vertices
-            .split((&batch.group, spans), size, &mut jobs);
-        executor.for_each(&mut jobs, &memory.shading, |job, scratch| {
-            let sub_draws = &batch.sub_draws[group.clone()][job.sub_draws.clone()];
-            for sub_draw in sub_draws {
-                let source = sub_draw.vertex_source(batch.listed(sub_draw));
-                let transform = &batch.plan(sub_draw).transform;
-                let mut out = job.out.take(&sub_draw.span);
-                shade(self.level, &source, transform, job.first, &mut out, scratch);
-            }
-        });
-        memory.lists.vertex_jobs = recycled(jobs);
-    }
-
-    /// Geometry, second half: primitives are assembled, culled, clipped, set up and binned, in
-    /// chunks. Where a chunk ends changes no result: groups grow with the threads. The chunks of a
-    /// group come behind those of the groups before; gives how many they are, and what was counted.
-    fn build_chunks(
-        &self,
-        (batch, group): (&DrawBatch<'_>, Range<usize>),
-        samples: usize,
-        before: usize,
-        memory: &mut Memory,
-    ) -> (usize, Statistics) {
-        let sub_draws = &batch.sub_draws[group.clone()];
-        let threads = self.executor.threads();
-        memory.chunk_plan.build(group.start, sub_draws, threads);
-        let count = memory.chunk_plan.len();
-        if memory.chunks.len() < before + count {
-            memory.chunks.resize_with(before + count, Chunk::default);
-        }
-        let mut jobs: Vec<ChunkJob<'_>> = recycled(std::mem::take(&mut memory.lists.chunk_jobs));
-        let chunks = memory.chunks[before..].iter_mut();
-        let chunks = chunks.zip(memory.chunk_plan.chunks());
-        jobs.extend(chunks.map(|(chunk, parts)| ChunkJob { chunk, parts }));
-        let vertices = &memory.vertices;
-        let level = self.level;
-        self.executor
-            .for_each(&mut jobs, &memory.chunk_scratch, |job, scratch| {
-                job.chunk.clear();
-                let [triangles, lines] = batch.packets(job.parts);
-                job.chunk.triangles.expect(triangles);
-                job.chunk.lines.expect(lines);
-                let mut joins_last = false;
-                for (at, part) in job.parts.iter().enumerate() {
-                    let sub_draw = &batch.sub_draws[part.sub_draw as usize];
-                    let next = job.parts.get(at + 1);
-                    let joins_next = next.is_some_and(|next| {
-                        batch.joins([part.sub_draw, next.sub_draw], level, samples)
-                    });
-                    let (plan, vertices) = (batch.plan(sub_draw), vertices.of_span(&sub_draw.span));
-                    let vertices = (vertices, batch.listed(sub_draw));
-                    let work = sub_draw.run_work(level, plan, vertices, part.primitives);
-                    let neighbours = Neighbours {
-                        joins_last,
-                        joins_next,
-                    };
-                    add_part(part.sub_draw, &work, neighbours, job.chunk, scratch);
-                    joins_last = joins_next;
-                }
-                job.chunk.bins.sort();
-                scratch.statistics += std::mem::take(&mut job.chunk.statistics);
-            });
-        memory.lists.chunk_jobs = recycled(jobs);
-        let mut statistics = Statistics::default();
-        for worker in &mut memory.chunk_scratch {
-            let worker = worker.get_mut().unwrap_or_else(PoisonError::into_inner);
-            statistics += std::mem::take(&mut worker.statistics);
-        }
-        (count, statistics)
-    }
-
-    /// The tile side: every tile consumes the chunks in order.
-    fn draw_tiles(
-        &self,
-        executor: &Executor,
-        (attachments, occlusion_queries): (TileAttachments<'_>, Option<&OcclusionQueries>),
-        batch: &DrawBatch<'_>,
-        chunks: usize,
-        memory: &mut Memory,
-    ) -> Result<Statistics, RenderPassError> {
-        let TileAttachments {
-            target,
-            clear,
-            is_last,
-            discards,
-        } = attachments;
-        // First of all: where memory is short, no image is taken to be drawn or resolved.
-        let words = TileWords::of(target, discards);
-        match target.samples() {
-            1 if !self.level.is_scalar() => begin_pass(&mut memory.tiles_1, &words),
-            4 if !self.level.is_scalar() => begin_pass(&mut memory.tiles_4, &words),
-            _ => begin_pass(&mut memory.tiles_many, &words),
-        }?;
-        let mut resolved = [None; MAX_TARGETS];
-        for resolve in target.resolves.iter_mut().filter(|_| is_last) {
-            resolved[resolve.color] = Some(resolve.into.format());
-            resolve.is_done = true;
-        }
-        for rows in target.rows.iter_mut().filter(|_| is_last) {
-            rows.is_done = rows.words_mut().is_some();
-        }
-        let chunks = &memory.chunks[..chunks];
-        memory.chunk_index.build(target.grid().tiles(), chunks);
-        let facts = TargetFacts {
-            level: self.level,
-            samples: target.samples() as usize,
-            depth_format: target.depth_format(),
-            has_depth: target.has_depth(),
-            has_queries: occlusion_queries.is_some(),
-        };
-        let mut states = recycled(std::mem::take(&mut memory.lists.tile_states));
-        batch.tile_states(&facts, &mut states);
-        let mut plans = recycled(std::mem::take(&mut memory.lists.plans));
-        batch.tile_plans(executor, (&states, &memory.vertices), &mut plans);
-        let mut jobs = recycled(std::mem::take(&mut memory.lists.tile_jobs));
-        let (grid, size) = (target.grid(), target.size);
-        let stores = tile_pass::jobs_of(target, is_last && !discards.depth_stencil, &mut jobs);
-        let places: Vec<RowsPlace> = stores.rows.iter().map(|rows| rows.place).collect();
-        let pass = TilePass {
-            level: self.level,
-            grid,
-            target: PixelRect::of_target(None, size.width, size.height),
-            plans: &plans,
-            chunks,
-            chunk_index: &memory.chunk_index,
-            clear: *clear,
-            samples: facts.samples,
-            occlusion_queries,
-            discards,
-            resolved,
-            rows: &places,
-        };
-        let mut statistics = Statistics::default();
-        match facts.samples {
-            1 if !self.level.is_scalar() => {
-                executor.for_each_ahead(&mut jobs, &memory.tiles_1, |job, next, scratch| {
-                    tile_pass::draw((&pass, &stores), job, next, scratch);
-                });
-                end_pass(&mut memory.tiles_1, &mut statistics);
-            }
-            4 if !self.level.is_scalar() => {
-                executor.for_each_ahead(&mut jobs, &memory.tiles_4, |job, next, scratch| {
-                    tile_pass::draw((&pass, &stores), job, next, scratch);
-                });
-                end_pass(&mut memory.tiles_4, &mut statistics);
-            }
-            _ => {
-                executor.for_each_ahead(&mut jobs, &memory.tiles_many, |job, next, scratch| {
-                    tile_pass::draw((&pass, &stores), job, next, scratch);
-                });
-                end_pass(&mut memory.tiles_many, &mut statistics);
-            }
-        }
-        memory.lists.tile_jobs = recycled(jobs);
-        memory.lists.plans = recycled(plans);
-        memory.lists.tile_states = recycled(states);
-        Ok(statistics)
-    }
 }
 
 fn out_of_memory(bytes: u64) -> RenderPassError {
     RenderPassError::OutOfMemory { bytes }
-}
-
-/// Takes the memory of all workers for tiles of the attachments that a pass discards.
-fn begin_pass<const N: usize>(
-    scratch: &mut [Mutex<TileScratch<N>>],
-    words: &TileWords,
-) -> Result<(), RenderPassError> {
-    for worker in scratch {
-        let worker = worker.get_mut().unwrap_or_else(PoisonError::into_inner);
-        let taken = worker.begin_pass(words);
-        taken.ok_or_else(|| out_of_memory(words.bytes()))?;
-    }
-    Ok(())
-}
-
-fn end_pass<const N: usize>(scratch: &mut [Mutex<TileScratch<N>>], total: &mut Statistics) {
-    for worker in scratch {
-        let worker = worker.get_mut().unwrap_or_else(PoisonError::into_inner);
-        *total += worker.end_pass();
-    }
 }

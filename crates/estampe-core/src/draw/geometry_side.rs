@@ -1,0 +1,107 @@
+//! The geometry side of a pass: vertices are shaded, then primitives become chunks.
+
+use super::{Context, Memory};
+use crate::bounds::chunk::Chunk;
+use crate::geometry::chunk::{Neighbours, add_part};
+use crate::geometry::shading::shade;
+use crate::plan::chunk_plan::{ChunkPart, VERTEX_CHUNK, part_size};
+use crate::plan::draw_batch::DrawBatch;
+use crate::recycle::recycled;
+use crate::schedule::Executor;
+use crate::statistics::Statistics;
+use std::ops::Range;
+use std::sync::PoisonError;
+
+/// A chunk, and the primitives that it takes.
+#[derive(Debug)]
+pub(super) struct ChunkJob<'a> {
+    chunk: &'a mut Chunk,
+    parts: &'a [ChunkPart],
+}
+
+impl Context {
+    /// Geometry, first half: every vertex of a group of sub-draws is shaded once and taken to the
+    /// window.
+    pub(super) fn shade_vertices(
+        &self,
+        executor: &Executor,
+        (batch, group): (&DrawBatch<'_>, Range<usize>),
+        memory: &mut Memory,
+    ) {
+        memory.vertices.resize_for(&batch.group);
+        let mut jobs = recycled(std::mem::take(&mut memory.lists.vertex_jobs));
+        let spans = batch.spans(group.clone());
+        let size = part_size(batch.group.count, executor.threads(), VERTEX_CHUNK);
+        memory
+            .vertices
+            .split((&batch.group, spans), size, &mut jobs);
+        executor.for_each(&mut jobs, &memory.shading, |job, scratch| {
+            let sub_draws = &batch.sub_draws[group.clone()][job.sub_draws.clone()];
+            for sub_draw in sub_draws {
+                let source = sub_draw.vertex_source(batch.listed(sub_draw));
+                let transform = &batch.plan(sub_draw).transform;
+                let mut out = job.out.take(&sub_draw.span);
+                shade(self.level, &source, transform, job.first, &mut out, scratch);
+            }
+        });
+        memory.lists.vertex_jobs = recycled(jobs);
+    }
+
+    /// Geometry, second half: primitives are assembled, culled, clipped, set up and binned, in
+    /// chunks. Where a chunk ends changes no result: groups grow with the threads. The chunks of a
+    /// group come behind those of the groups before; gives how many they are, and what was counted.
+    pub(super) fn build_chunks(
+        &self,
+        (batch, group): (&DrawBatch<'_>, Range<usize>),
+        samples: usize,
+        before: usize,
+        memory: &mut Memory,
+    ) -> (usize, Statistics) {
+        let sub_draws = &batch.sub_draws[group.clone()];
+        let threads = self.executor.threads();
+        memory.chunk_plan.build(group.start, sub_draws, threads);
+        let count = memory.chunk_plan.len();
+        if memory.chunks.len() < before + count {
+            memory.chunks.resize_with(before + count, Chunk::default);
+        }
+        let mut jobs: Vec<ChunkJob<'_>> = recycled(std::mem::take(&mut memory.lists.chunk_jobs));
+        let chunks = memory.chunks[before..].iter_mut();
+        let chunks = chunks.zip(memory.chunk_plan.chunks());
+        jobs.extend(chunks.map(|(chunk, parts)| ChunkJob { chunk, parts }));
+        let vertices = &memory.vertices;
+        let level = self.level;
+        self.executor
+            .for_each(&mut jobs, &memory.chunk_scratch, |job, scratch| {
+                job.chunk.clear();
+                let [triangles, lines] = batch.packets(job.parts);
+                job.chunk.triangles.expect(triangles);
+                job.chunk.lines.expect(lines);
+                let mut joins_last = false;
+                for (at, part) in job.parts.iter().enumerate() {
+                    let sub_draw = &batch.sub_draws[part.sub_draw as usize];
+                    let next = job.parts.get(at + 1);
+                    let joins_next = next.is_some_and(|next| {
+                        batch.joins([part.sub_draw, next.sub_draw], level, samples)
+                    });
+                    let (plan, vertices) = (batch.plan(sub_draw), vertices.of_span(&sub_draw.span));
+                    let vertices = (vertices, batch.listed(sub_draw));
+                    let work = sub_draw.run_work(level, plan, vertices, part.primitives);
+                    let neighbours = Neighbours {
+                        joins_last,
+                        joins_next,
+                    };
+                    add_part(part.sub_draw, &work, neighbours, job.chunk, scratch);
+                    joins_last = joins_next;
+                }
+                job.chunk.bins.sort();
+                scratch.statistics += std::mem::take(&mut job.chunk.statistics);
+            });
+        memory.lists.chunk_jobs = recycled(jobs);
+        let mut statistics = Statistics::default();
+        for worker in &mut memory.chunk_scratch {
+            let worker = worker.get_mut().unwrap_or_else(PoisonError::into_inner);
+            statistics += std::mem::take(&mut worker.statistics);
+        }
+        (count, statistics)
+    }
+}

@@ -1,0 +1,136 @@
+//! The tile side of a pass: every tile consumes the chunks in order.
+
+use super::{Context, Memory, out_of_memory};
+use crate::attachment::{RenderTarget, RowsPlace};
+use crate::bounds::pixel_rect::PixelRect;
+use crate::commands::{Discards, OcclusionQueries};
+use crate::plan::draw_batch::DrawBatch;
+use crate::plan::pass_check::RenderPassError;
+use crate::plan::tile_plan::TargetFacts;
+use crate::recycle::recycled;
+use crate::schedule::Executor;
+use crate::statistics::Statistics;
+use crate::tile_pass::{self, Clear, MAX_TARGETS, TilePass, TileScratch, TileWords};
+use std::sync::{Mutex, PoisonError};
+
+/// The images that tiles are drawn into.
+#[derive(Debug)]
+pub(super) struct TileAttachments<'a> {
+    pub(super) target: &'a mut RenderTarget,
+    /// What is cleared first.
+    pub(super) clear: &'a Clear,
+    /// True if nothing is drawn into them afterwards.
+    pub(super) is_last: bool,
+    /// Those that nothing was drawn into before, and that nobody needs afterwards.
+    pub(super) discards: Discards,
+}
+
+impl Context {
+    /// The tile side: every tile consumes the chunks in order.
+    pub(super) fn draw_tiles(
+        &self,
+        executor: &Executor,
+        (attachments, occlusion_queries): (TileAttachments<'_>, Option<&OcclusionQueries>),
+        batch: &DrawBatch<'_>,
+        chunks: usize,
+        memory: &mut Memory,
+    ) -> Result<Statistics, RenderPassError> {
+        let TileAttachments {
+            target,
+            clear,
+            is_last,
+            discards,
+        } = attachments;
+        // First of all: where memory is short, no image is taken to be drawn or resolved.
+        let words = TileWords::of(target, discards);
+        match target.samples() {
+            1 if !self.level.is_scalar() => begin_pass(&mut memory.tiles_1, &words),
+            4 if !self.level.is_scalar() => begin_pass(&mut memory.tiles_4, &words),
+            _ => begin_pass(&mut memory.tiles_many, &words),
+        }?;
+        let mut resolved = [None; MAX_TARGETS];
+        for resolve in target.resolves.iter_mut().filter(|_| is_last) {
+            resolved[resolve.color] = Some(resolve.into.format());
+            resolve.is_done = true;
+        }
+        for rows in target.rows.iter_mut().filter(|_| is_last) {
+            rows.is_done = rows.words_mut().is_some();
+        }
+        let chunks = &memory.chunks[..chunks];
+        memory.chunk_index.build(target.grid().tiles(), chunks);
+        let facts = TargetFacts {
+            level: self.level,
+            samples: target.samples() as usize,
+            depth_format: target.depth_format(),
+            has_depth: target.has_depth(),
+            has_queries: occlusion_queries.is_some(),
+        };
+        let mut states = recycled(std::mem::take(&mut memory.lists.tile_states));
+        batch.tile_states(&facts, &mut states);
+        let mut plans = recycled(std::mem::take(&mut memory.lists.plans));
+        batch.tile_plans(executor, (&states, &memory.vertices), &mut plans);
+        let mut jobs = recycled(std::mem::take(&mut memory.lists.tile_jobs));
+        let (grid, size) = (target.grid(), target.size);
+        let stores = tile_pass::jobs_of(target, is_last && !discards.depth_stencil, &mut jobs);
+        let places: Vec<RowsPlace> = stores.rows.iter().map(|rows| rows.place).collect();
+        let pass = TilePass {
+            level: self.level,
+            grid,
+            target: PixelRect::of_target(None, size.width, size.height),
+            plans: &plans,
+            chunks,
+            chunk_index: &memory.chunk_index,
+            clear: *clear,
+            samples: facts.samples,
+            occlusion_queries,
+            discards,
+            resolved,
+            rows: &places,
+        };
+        let mut statistics = Statistics::default();
+        match facts.samples {
+            1 if !self.level.is_scalar() => {
+                executor.for_each_ahead(&mut jobs, &memory.tiles_1, |job, next, scratch| {
+                    tile_pass::draw((&pass, &stores), job, next, scratch);
+                });
+                end_pass(&mut memory.tiles_1, &mut statistics);
+            }
+            4 if !self.level.is_scalar() => {
+                executor.for_each_ahead(&mut jobs, &memory.tiles_4, |job, next, scratch| {
+                    tile_pass::draw((&pass, &stores), job, next, scratch);
+                });
+                end_pass(&mut memory.tiles_4, &mut statistics);
+            }
+            _ => {
+                executor.for_each_ahead(&mut jobs, &memory.tiles_many, |job, next, scratch| {
+                    tile_pass::draw((&pass, &stores), job, next, scratch);
+                });
+                end_pass(&mut memory.tiles_many, &mut statistics);
+            }
+        }
+        memory.lists.tile_jobs = recycled(jobs);
+        memory.lists.plans = recycled(plans);
+        memory.lists.tile_states = recycled(states);
+        Ok(statistics)
+    }
+}
+
+/// Takes the memory of all workers for tiles of the attachments that a pass discards.
+fn begin_pass<const N: usize>(
+    scratch: &mut [Mutex<TileScratch<N>>],
+    words: &TileWords,
+) -> Result<(), RenderPassError> {
+    for worker in scratch {
+        let worker = worker.get_mut().unwrap_or_else(PoisonError::into_inner);
+        let taken = worker.begin_pass(words);
+        taken.ok_or_else(|| out_of_memory(words.bytes()))?;
+    }
+    Ok(())
+}
+
+fn end_pass<const N: usize>(scratch: &mut [Mutex<TileScratch<N>>], total: &mut Statistics) {
+    for worker in scratch {
+        let worker = worker.get_mut().unwrap_or_else(PoisonError::into_inner);
+        *total += worker.end_pass();
+    }
+}
