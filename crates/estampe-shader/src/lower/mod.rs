@@ -14,7 +14,9 @@
 //! | `half_memory` | 16-bit floats in buffers |
 //! | `entry` | inputs and outputs of an entry point |
 //! | `bindings` | what it binds |
-//! | `statement` | control flow and effects |
+//! | `call` | calls that are inlined, and the variables of functions |
+//! | `statement` | statements and their effects |
+//! | `flow` | `if`, loops and switches, and the slots that they hand over |
 //! | `subgroup` | what the invocations of a quad exchange |
 //! | `expression`, `arithmetic`, `math`, `half`, `image` | values |
 //! | `wide` | 64-bit integers: two words |
@@ -22,8 +24,10 @@
 
 mod arithmetic;
 mod bindings;
+mod call;
 mod entry;
 mod expression;
+mod flow;
 mod gradients;
 mod half;
 mod half_memory;
@@ -161,10 +165,10 @@ struct Frame<'a> {
     /// Expressions that were evaluated.
     done: HashMap<Handle<naga::Expression>, Operand>,
     /// Where `return` goes.
-    leave: statement::Exit,
+    leave: flow::Exit,
     /// Where `break` and `continue` go, innermost last.
-    breaks: Vec<statement::Exit>,
-    continues: Vec<statement::Exit>,
+    breaks: Vec<flow::Exit>,
+    continues: Vec<flow::Exit>,
 }
 
 type Lowered<T> = Result<T, LowerError>;
