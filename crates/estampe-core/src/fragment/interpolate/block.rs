@@ -20,11 +20,11 @@ impl TriangleInterpolant<'_> {
         pixel: [i32; 2],
         (out, scalars): (&mut [Packet<f32>], usize),
     ) {
-        let n = scalars.min(self.planes.len());
-        let mut w = [Packet([1.0; LANES]); LANES];
         if scalars == 0 {
             return;
         }
+        let n = scalars.min(self.planes.len());
+        let mut w = [Packet([1.0; LANES]); LANES];
         if !self.equal_w {
             let one = <f32x16<S> as SimdBase<S>>::splat(s, 1.0);
             let iw = self.block_of(s, &self.iw, pixel);
