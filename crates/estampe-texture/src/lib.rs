@@ -41,7 +41,7 @@
 //!   same two mip levels, all texels inside;
 //! * `view/packet/bytes.rs` and `each_level.rs`, packets of formats of bytes with linear filtering,
 //!   in any mip levels, layers and faces;
-//! * `view/packet/mod.rs`, the general packet code, which samples other packets;
+//! * `view/packet/general.rs`, the general packet code, which samples other packets;
 //! * `view/sample.rs`, the scalar code, lane by lane, for everything else.
 //!
 //! # How a packet of the common kind is sampled

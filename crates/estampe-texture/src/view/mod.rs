@@ -19,9 +19,9 @@
 //! * `packet/filter.rs`, `packet/taps.rs` and `packet/block.rs` sample half floats for packets that
 //!   are blocks of pixels, by rows of texels: filters whose taps stand at known shifts, taps at any
 //!   coordinates, and one place.
-//! * `packet/mod.rs` is the general packet code, for other packets: every format except integers
-//!   and stencil, every dimension, filter and comparison. It samples once for every mip level among
-//!   the lanes.
+//! * `packet/general.rs` is the general packet code, for other packets: every format except
+//!   integers and stencil, every dimension, filter and comparison. It samples once for every mip
+//!   level among the lanes.
 //! * `sample.rs` is the scalar code, lane by lane: integers and stencil, fewer than sixteen lanes,
 //!   the scalar SIMD level, and the lanes that the packet code leaves out (texels across a border
 //!   or a cube's edge, or with an offset).
@@ -42,8 +42,10 @@ mod packet_fetch;
 mod packet_request;
 mod packet_texel;
 mod plane;
+mod request_functions;
 mod sample;
 mod sampled_texture;
+mod shader_functions;
 
 pub(crate) use coordinates::{Answers, answer, by_sixteen, load, packed, packet, packet_of_ints};
 pub use coordinates::{Coordinates, Lod, TextureCoordinates};
