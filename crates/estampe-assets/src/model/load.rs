@@ -2,16 +2,16 @@
 
 use super::contents::ModelContents;
 use super::deferred::{DeferredImages, FullDetail, TextureDetail, decode_all};
-use super::encoding::utf8_from_utf16;
+use super::input::{
+    ModelInput, ModelSource, SourceBytes, check_length, decoded_text, of_stream, read_file,
+};
 use super::options::{ModelChoices, ModelOptions};
 use super::resources::{ResourceError, Resources};
 use super::{Folder, ModelFormat, finish, gltf, obj, off, ply, stl, threemf};
 use crate::warning::{Warning, Warnings};
-use crate::{AssetError, Limits, read_bytes, read_stream};
+use crate::{AssetError, Limits, read_stream};
 use estampe_scene::{Scene, Workers};
 use glam::Vec3;
-use std::fs::File;
-use std::io::Read;
 use std::path::Path;
 
 /// A model with its warnings.
@@ -32,64 +32,6 @@ pub struct Loaded {
     pub choices: ModelChoices,
     /// The hierarchy, extensions, and which normals are made.
     pub contents: ModelContents,
-}
-
-/// The bytes of a model and where they come from.
-#[derive(Clone, Copy)]
-pub struct ModelInput<'a> {
-    /// The file.
-    pub bytes: &'a [u8],
-    /// Its format.
-    pub format: ModelFormat,
-    /// Its name in messages.
-    pub name: &'a str,
-    /// The source of its side files.
-    pub resources: &'a dyn Resources,
-}
-
-impl std::fmt::Debug for ModelInput<'_> {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let Self { format, name, .. } = self;
-        write!(f, "ModelInput({name}, {format:?})")
-    }
-}
-
-/// A model that is not kept in memory once it is parsed.
-pub struct ModelSource<'a> {
-    /// The file.
-    pub bytes: SourceBytes<'a>,
-    /// Its format.
-    pub format: ModelFormat,
-    /// Its name in messages.
-    pub name: &'a str,
-    /// The source of its side files.
-    pub resources: &'a dyn Resources,
-}
-
-impl std::fmt::Debug for ModelSource<'_> {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let Self { format, name, .. } = self;
-        write!(f, "ModelSource({name}, {format:?})")
-    }
-}
-
-/// The bytes of a [`ModelSource`].
-pub enum SourceBytes<'a> {
-    /// All bytes: they are dropped as soon as they are parsed.
-    Memory(Vec<u8>),
-    /// A stream of about so many bytes, if that is known. OBJ is parsed while it is read, and never
-    /// in memory as a whole; other formats are read first.
-    Stream(&'a mut (dyn Read + Send), Option<u64>),
-}
-
-impl std::fmt::Debug for SourceBytes<'_> {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            Self::Memory(bytes) => write!(f, "{} bytes", bytes.len()),
-            Self::Stream(_, Some(len)) => write!(f, "a stream of {len} bytes"),
-            Self::Stream(_, None) => f.write_str("a stream"),
-        }
-    }
 }
 
 /// Output of a format's reader, before the final steps.
@@ -351,10 +293,6 @@ fn check_choices(
     }
 }
 
-fn check_length(bytes: &[u8], limits: &Limits) -> Result<(), AssetError> {
-    Limits::check("bytes", bytes.len() as u64, limits.max_file_bytes)
-}
-
 /// Parses a format whose images are files of their own, so that nothing stays in the bytes.
 fn parse_geometry(
     bytes: &[u8],
@@ -412,49 +350,5 @@ fn refused(first: &Warning, count: u64) -> AssetError {
     match first.location {
         Some(location) => error.at(location),
         None => error,
-    }
-}
-
-/// The bytes of the model itself, up to the limit. The user named it, so it may be a pipe.
-fn read_file(path: &Path, limits: &Limits) -> Result<Vec<u8>, AssetError> {
-    let failed = |error: std::io::Error| of_stream(&error, limits);
-    let metadata = std::fs::metadata(path).map_err(failed)?;
-    if metadata.is_dir() {
-        return Err(AssetError::io(
-            "this is a folder",
-            "name a model file in it",
-        ));
-    }
-    Limits::check("bytes", metadata.len(), limits.max_file_bytes)?;
-    let file = File::open(path).map_err(failed)?;
-    read_bytes(file, metadata.len(), limits).map_err(failed)
-}
-
-/// The error of [`read_bytes`] and [`read_stream`].
-fn of_stream(error: &std::io::Error, limits: &Limits) -> AssetError {
-    let failed = || AssetError::io(error.to_string(), "check the path and its permissions");
-    match error.kind() {
-        std::io::ErrorKind::FileTooLarge => {
-            let more = limits.max_file_bytes.saturating_add(1);
-            let checked = Limits::check("bytes", more, limits.max_file_bytes);
-            checked.err().unwrap_or_else(failed)
-        }
-        _ => failed(),
-    }
-}
-
-/// The text of a file in UTF-16, in the formats that are text. What begins as UTF-16 may be a
-/// binary STL, whose first 80 bytes are free.
-fn decoded_text(format: ModelFormat, bytes: &[u8]) -> Option<Vec<u8>> {
-    match format {
-        ModelFormat::Obj | ModelFormat::Off | ModelFormat::Ply => utf8_from_utf16(bytes),
-        ModelFormat::Stl => {
-            let count = bytes.get(80..84).and_then(|count| count.first_chunk());
-            let whole = count.map(|&count| 84 + 50 * u64::from(u32::from_le_bytes(count)));
-            let is_binary = whole == Some(bytes.len() as u64);
-            { (!is_binary).then_some(bytes) }.and_then(utf8_from_utf16)
-        }
-        // JSON is UTF-8, and 3MF decodes its parts.
-        ModelFormat::Gltf | ModelFormat::ThreeMf => None,
     }
 }

@@ -19,6 +19,7 @@ mod encoding;
 mod finish;
 mod folder;
 mod gltf;
+mod input;
 mod joined;
 mod load;
 mod mtl;
@@ -46,9 +47,10 @@ pub use contents::{ModelContents, ModelNode};
 pub use deferred::{FullDetail, LeastDetail, TextureDetail};
 pub use detect::ModelFormat;
 pub use folder::Folder;
+pub use input::{ModelInput, ModelSource, SourceBytes};
 pub use load::{
-    Loaded, ModelInput, ModelSource, SourceBytes, load_model, load_model_with, parse_model,
-    parse_model_for, parse_model_with, read_model_for,
+    Loaded, load_model, load_model_with, parse_model, parse_model_for, parse_model_with,
+    read_model_for,
 };
 pub use normals::NormalMode;
 pub use options::{AnimationClip, AnimationName, ModelChoices, ModelOptions, TextureAlpha};

@@ -14,17 +14,19 @@
 //!
 //! A point is smooth, and needs one sum only, if each face's normal lies within half the crease
 //! angle of the sum: any two of them are then within the whole angle. Only the other points pay for
-//! comparing pairs. With more than `creases::MAX_PAIRED` faces around a point, faces are first
+//! comparing pairs. With more than `fan::MAX_PAIRED` faces around a point, faces are first
 //! grouped into cells of similar direction, and pairs of cells are compared; so the time is linear
 //! in the number of triangles, even if all of them share one vertex.
 
 mod creases;
 mod faces;
+mod fan;
 
 use super::vertex_copies::VertexCopies;
 use super::weld;
-use creases::{CornerNormals, Grouping};
+use creases::CornerNormals;
 use estampe_scene::{Mesh, Workers};
+use fan::Grouping;
 use glam::Vec3;
 use std::borrow::Cow;
 
