@@ -1,7 +1,7 @@
 //! The page on which the pipeline reads: what a draw is, and the order in which its stages run.
 
-mod geometry_side;
-mod tile_side;
+mod geometry;
+mod tiles;
 
 use crate::attachment::RenderTarget;
 use crate::bounds::chunk::Chunk;
@@ -24,10 +24,10 @@ use crate::schedule::{Awake, Executor, ThreadError, ThreadPool};
 use crate::statistics::Statistics;
 use crate::tile_pass::{Clear, TileJob, TileScratch};
 use estampe_simd::Level;
-use geometry_side::ChunkJob;
+use geometry::ChunkJob;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Instant;
-use tile_side::TileAttachments;
+use tiles::TileAttachments;
 
 /// The resources that draws need besides their data: threads, a SIMD level, and memory that is
 /// reused.
