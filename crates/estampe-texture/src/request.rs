@@ -215,7 +215,7 @@ impl Rgba8Texture {
         requests: [&Request<'_>; 2],
         colors: &mut [Answers; 2],
     ) {
-        dispatch!(@wide level, s => {
+        dispatch!(@specialized level, s => {
             let zero: f32x16<_> = SimdBase::splat(s, 0.0);
             let [a, b] = requests;
             let details = [self.place(a, zero, 0), self.place(b, zero, 0)];
@@ -227,9 +227,9 @@ impl Rgba8Texture {
                     None => self.sample_rare_packet(s.as_level(), request, colors),
                 }
             }
-        }, scalar => {
+        }, others => {
             for (request, colors) in requests.into_iter().zip(colors) {
-                *colors = self.sample_each(request);
+                self.sample_packet(level, request, colors);
             }
         });
     }
@@ -315,7 +315,7 @@ impl Rgba8Texture {
         let Some((first, others)) = textures.split_first() else {
             return;
         };
-        if !level.is_scalar() && others.iter().all(|other| first.is_like(other)) {
+        if level.is_specialized() && others.iter().all(|other| first.is_like(other)) {
             first.sample_alike(textures, level, request, colors);
             return;
         }
@@ -333,7 +333,7 @@ impl Rgba8Texture {
         request: &Request<'_>,
         colors: &mut [Answers],
     ) {
-        dispatch!(@wide level, s => {
+        dispatch!(@specialized level, s => {
             let zero: f32x16<_> = SimdBase::splat(s, 0.0);
             let (uv, lod, guess) = self.place(request, zero, 0);
             let Some(inside) = self.inside(uv, lod, guess) else {
@@ -343,7 +343,7 @@ impl Rgba8Texture {
             for (texture, colors) in textures.iter().zip(colors) {
                 *colors = stored(inside.color(&texture.texture, texture.is_srgb));
             }
-        }, scalar => ());
+        }, others => ());
     }
 
     #[inline(never)]
@@ -354,7 +354,7 @@ impl Rgba8Texture {
         request: &Request<'_>,
         colors: &mut [Answers],
     ) {
-        dispatch!(@wide level, s => {
+        dispatch!(@specialized level, s => {
             let zero: f32x16<_> = SimdBase::splat(s, 0.0);
             let (uv, lod, _) = self.place(request, zero, 0);
             let mixed = self.mixed(uv, lod);
@@ -365,7 +365,7 @@ impl Rgba8Texture {
                 };
                 *colors = stored(color);
             }
-        }, scalar => ());
+        }, others => ());
     }
 
     /// Samples a packet lane by lane, at the scalar SIMD level.

@@ -284,10 +284,10 @@ impl<const N: usize> InOrder<'_, '_, '_, '_, N> {
                 let second = member.second.filter(|_| self.blends_blocks);
                 let is_box = member.second.is_some() && second.is_none();
                 let has_planes = set_up.with_planes >> lane & 1 == 1;
-                let planes_of = has_planes.then_some(lane);
-                self.triangle(s, &member.triangle.unpack(), (is_box, planes_of));
-                if let Some(triangle) = second {
-                    self.triangle(s, &triangle.unpack(), (is_box, None));
+                let mut planes_of = has_planes.then_some(lane);
+                // A loop, so that the code of a triangle is here once.
+                for triangle in [Some(member.triangle), second].into_iter().flatten() {
+                    self.triangle(s, &triangle.unpack(), (is_box, planes_of.take()));
                 }
                 next = lane + 1;
             }

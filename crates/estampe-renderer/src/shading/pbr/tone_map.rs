@@ -85,16 +85,33 @@ fn agx<R: Real>(color: Vec3<R>) -> Vec3<R> {
     let inset = transform(INSET, color);
     let shown = Vec3::new(agx_curve(inset.x), agx_curve(inset.y), agx_curve(inset.z));
     let shown = transform(OUTSET, shown);
-    // The curve gives display codes of exponent 2.2.
     Vec3::new(
-        shown.x.max(0.0).pow(2.2),
-        shown.y.max(0.0).pow(2.2),
-        shown.z.max(0.0).pow(2.2),
+        agx_linear(shown.x),
+        agx_linear(shown.y),
+        agx_linear(shown.z),
+    )
+}
+
+/// The curve gives display codes of exponent 2.2. A function of its own, as [`agx_curve`]: three
+/// powers and three logarithms in one took the compiler ten times as long.
+#[inline(always)]
+fn agx_linear<R: Real>(code: R) -> R {
+    code.out_of_line(
+        #[inline(always)]
+        || code.max(0.0).pow(2.2),
     )
 }
 
 #[inline(always)]
 fn agx_curve<R: Real>(value: R) -> R {
+    value.out_of_line(
+        #[inline(always)]
+        || agx_polynomial(value),
+    )
+}
+
+#[inline(always)]
+fn agx_polynomial<R: Real>(value: R) -> R {
     /// Stops below and above middle grey that the curve holds.
     const STOPS: [f32; 2] = [-12.473_93, 4.026_069];
     let stops = value.max(1e-10).log2().clamp(STOPS[0], STOPS[1]);

@@ -238,6 +238,11 @@ impl<'a, 'j, 't, const N: usize> Resolver<'a, 'j, 't, N> {
             (false, PACKETS_OF_VISIBILITY),
         );
         let level = self.pass.level;
+        let key = self.plan.pipeline.key();
+        if const { N <= 4 } && key.needs_no_quads && !key.uniform_over_primitive {
+            dispatch!(@wide level, s => self.touched(s, group),
+                scalar => unreachable!("{ONLY_WIDE}"));
+        }
         dispatch!(@wide level, s => self.packets(s, group, packets),
             scalar => unreachable!("{ONLY_WIDE}"));
         let resolve = &self.scratch.visibility.resolve;
@@ -257,9 +262,6 @@ impl<'a, 'j, 't, const N: usize> Resolver<'a, 'j, 't, N> {
     fn packets<S: Lanes>(&mut self, s: S, group: &ShadingGroup, packets: PacketSet) {
         let key = self.plan.pipeline.key();
         let per_primitive = key.uniform_over_primitive;
-        if const { N <= 4 } && key.needs_no_quads && !per_primitive {
-            self.touched(s, group);
-        }
         let lists_quads = const { N == 1 } && !key.needs_no_quads && !per_primitive;
         let visible = packets.iter().map(|packets| packets.count_ones() as usize);
         let lines = self.job.next.len().div_ceil(visible.sum::<usize>().max(1));
@@ -284,7 +286,7 @@ impl<'a, 'j, 't, const N: usize> Resolver<'a, 'j, 't, N> {
                 if let Some(id) = single
                     && group.ids.contains(&id)
                     && is_whole
-                    && self.queue_block(s, id, packet)
+                    && self.queue_block(id, packet)
                 {
                     packets &= !block;
                     self.job.next.step(s, lines * (LANES - 1));
@@ -295,12 +297,15 @@ impl<'a, 'j, 't, const N: usize> Resolver<'a, 'j, 't, N> {
                     Some(_) => continue,
                     None => self.take_unresolved(s, number, group),
                 };
+                let mut only = single;
                 if lists_quads && single.is_none() {
-                    self.list_quads(s, number, left);
-                    continue;
+                    only = self.list_quads(s, number, left);
+                    if only.is_none() {
+                        continue;
+                    }
                 }
                 while left != [0; N] {
-                    let (id, covered) = match single {
+                    let (id, covered) = match only {
                         Some(id) => (id, std::mem::replace(&mut left, [0; N])),
                         None => self.take_first(s, number, &mut left),
                     };
@@ -334,13 +339,7 @@ impl<'a, 'j, 't, const N: usize> Resolver<'a, 'j, 't, N> {
             resolve.quads.add(id, *covered, quads);
             return;
         }
-        self.queue_whole(s, id, covered);
-    }
-
-    /// Queues a packet of a triangle.
-    #[inline(always)]
-    fn queue_whole<S: Lanes>(&mut self, s: S, id: u32, covered: &Covered<N>) {
-        let visible = self.visible(s, id);
+        let visible = self.visible(id);
         if self.scratch.queue.is_full() {
             self.flush();
         }

@@ -4,13 +4,14 @@ use super::Resolver;
 use crate::pipeline::color_target::MAX_WORDS;
 use crate::raster::Covered;
 use crate::tile_pass::TileScratch;
-use estampe_simd::{LANES, Lanes, Select, SimdBase, u32x16};
+use crate::tile_pass::visibility::ONLY_WIDE;
+use estampe_simd::{LANES, Lanes, Select, SimdBase, dispatch, u32x16};
 
 impl<const N: usize> Resolver<'_, '_, '_, N> {
     /// Stores the one texel of a triangle in the block of 16×16 pixels that begins with a packet.
     #[inline(always)]
     pub(super) fn fill_block<S: Lanes>(&mut self, s: S, id: u32, first_packet: usize) {
-        let visible = self.texels_of(s, id);
+        let visible = self.texels_of(id);
         self.scratch.statistics.fragments_shaded += 256;
         let targets = self.plan.pipeline.color_targets();
         let resolve = &self.scratch.visibility.resolve;
@@ -38,7 +39,7 @@ impl<const N: usize> Resolver<'_, '_, '_, N> {
     /// Stores the one texel of a triangle in the lanes of a packet.
     #[inline(always)]
     pub(super) fn fill<S: Lanes>(&mut self, s: S, id: u32, covered: &Covered<N>) {
-        let visible = self.texels_of(s, id);
+        let visible = self.texels_of(id);
         self.scratch.statistics.fragments_shaded += u64::from(covered.any().count_ones());
         let targets = self.plan.pipeline.color_targets();
         let resolve = &self.scratch.visibility.resolve;
@@ -50,30 +51,26 @@ impl<const N: usize> Resolver<'_, '_, '_, N> {
 
     /// The place in `visible` of a triangle that has one colour, whose texels are known afterwards.
     #[inline(always)]
-    fn texels_of<S: Lanes>(&mut self, s: S, id: u32) -> usize {
-        let visible = self.visible(s, id);
+    fn texels_of(&mut self, id: u32) -> usize {
+        let visible = self.visible(id);
         let targets = self.plan.pipeline.color_targets().len();
         let resolve = &self.scratch.visibility.resolve;
         if resolve.texels.get(visible, targets).is_none() {
-            self.shade_primitive(s, visible);
+            self.shade_primitive(visible);
         }
         visible
     }
 
     /// Shades one packet of a triangle that has one colour, and keeps its texels.
-    #[inline(always)]
-    fn shade_primitive<S: Lanes>(&mut self, s: S, visible: usize) {
+    #[inline(never)]
+    fn shade_primitive(&mut self, visible: usize) {
         debug_assert!(self.scratch.queue.is_empty(), "one packet is shaded alone");
         let any = Covered {
             packet: 0,
             masks: self.samples.whole(),
         };
-        self.push(s, visible, &any);
-        self.keep_primitive(visible);
-    }
-
-    /// Shades the one queued packet, and keeps its first lane's texels.
-    fn keep_primitive(&mut self, visible: usize) {
+        dispatch!(@wide self.pass.level, s => self.push(s, visible, &any),
+            scalar => unreachable!("{ONLY_WIDE}"));
         let TileScratch {
             queue, visibility, ..
         } = &mut *self.scratch;

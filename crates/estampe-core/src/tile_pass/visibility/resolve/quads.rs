@@ -5,7 +5,6 @@ use super::pixels::{NotedTriangles, PushedLanes};
 use super::{ALL_QUADS, Resolver, ShadingGroup, quads_of};
 use crate::fragment::fill::lanes_between;
 use crate::fragment::quad::{QUAD, QUADS};
-use crate::raster::Covered;
 use crate::raster::pixel_list::Pixels;
 use crate::raster::small::PIXELS;
 use crate::tile_pass::visibility::VisibilityScratch;
@@ -13,27 +12,31 @@ use estampe_simd::{LANES, Lanes, SimdBase};
 use std::ops::Range;
 
 impl<const N: usize> Resolver<'_, '_, '_, N> {
-    /// Queues a packet of which some lanes show one triangle of the group, or lists the quads of
-    /// several, which share packets with those of other places.
+    /// The triangle of the group that a packet shows in all of its quads, and no other. Otherwise
+    /// lists the quads of its triangles, which share packets with those of other places.
     #[inline(always)]
     #[expect(clippy::cast_possible_truncation, reason = "a tile has 256 packets")]
-    pub(super) fn list_quads<S: Lanes>(&mut self, s: S, packet: usize, masks: [u16; N]) {
+    pub(super) fn list_quads<S: Lanes>(
+        &mut self,
+        s: S,
+        packet: usize,
+        masks: [u16; N],
+    ) -> Option<u32> {
         if masks == [0; N] {
-            return;
+            return None;
         }
         let shown = masks[0];
         let line = self.line_of(packet, 0);
         let id = self.first_id(packet, &masks);
         if quads_of(shown) == ALL_QUADS && self.lanes_of(s, line, id) & shown == shown {
-            let packet = packet as u16;
-            self.queue_whole(s, id, &Covered { packet, masks });
-            return;
+            return Some(id);
         }
         let VisibilityScratch {
             buffer, resolve, ..
         } = &mut self.scratch.visibility;
         let ids = &ids_of(self.storage, self.job, &buffer.ids)[line];
         resolve.quads.add_all(s, packet as u32, (ids, shown));
+        None
     }
 
     /// Queues the listed quads of a group, packet by packet of its triangles.

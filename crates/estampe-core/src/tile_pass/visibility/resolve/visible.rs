@@ -6,8 +6,8 @@ use crate::fragment::interpolate::{
     PlaneOrigin, TriangleInterpolant, VaryingPlanes, VaryingSource, set_planes,
 };
 use crate::plan::tile_plan::TilePlan;
-use crate::tile_pass::visibility::VisibilityScratch;
-use estampe_simd::Lanes;
+use crate::tile_pass::visibility::{ONLY_WIDE, VisibilityScratch};
+use estampe_simd::{Lanes, dispatch};
 use estampe_types::Interface;
 
 /// A visible triangle: the values that its fragments are interpolated from.
@@ -25,14 +25,25 @@ pub(super) struct VisibleTriangle {
 impl<const N: usize> Resolver<'_, '_, '_, N> {
     /// Returns a triangle's index in `visible`; its planes are made when it is first met.
     #[inline(always)]
-    pub(super) fn visible<S: Lanes>(&mut self, s: S, id: u32) -> usize {
+    pub(super) fn visible(&mut self, id: u32) -> usize {
+        match self.scratch.visibility.resolve.visible_of[id as usize] {
+            NONE => self.make_visible(id),
+            place => place as usize,
+        }
+    }
+
+    /// Out of line: code for the planes of each kind of interpolation is long.
+    #[inline(never)]
+    fn make_visible(&mut self, id: u32) -> usize {
+        dispatch!(@wide self.pass.level, s => self.make_planes(s, id as usize),
+            scalar => unreachable!("{ONLY_WIDE}"))
+    }
+
+    #[inline(always)]
+    fn make_planes<S: Lanes>(&mut self, s: S, at: usize) -> usize {
         let VisibilityScratch {
             buffer, resolve, ..
         } = &mut self.scratch.visibility;
-        let at = id as usize;
-        if resolve.visible_of[at] != NONE {
-            return resolve.visible_of[at] as usize;
-        }
         let reference = buffer.triangles[at];
         let chunk = &self.pass.chunks[reference.chunk as usize];
         let plan = &self.pass.plans[reference.sub_draw as usize];
