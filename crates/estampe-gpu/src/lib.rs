@@ -17,7 +17,7 @@
 //!
 //! | feature | adds |
 //! |---|---|
-//! | `shader-text` | shaders as text: WGSL, GLSL and SPIR-V; a Rust shader needs none of it, and a first build takes half the time without |
+//! | `shader-text` | shaders as text: WGSL, GLSL and SPIR-V; a Rust shader needs none of it, and a first debug build takes half the processor's time without |
 //! | `image` | `Device::create_texture_from_image` and `Device::read_image`: textures and the `image` crate |
 //! | `png` | `Device::encode_png` and `Device::write_png`: textures as PNG files |
 //! | `scalar-level` | the scalar SIMD level, for tests |

@@ -79,7 +79,7 @@ impl Gaussian {
     /// height · cos(frequency·path + shift) · 2^(−decay·path²).
     #[inline(always)]
     fn at<R: Real>(&self, path_nm: R, shift: R) -> R {
-        // Four of them in one function would take the compiler longer than the rest of a surface.
+        // Out of line: LLVM took 1.4 s at x86-64's baseline for four of them in one function.
         path_nm.out_of_line(
             #[inline(always)]
             || {
