@@ -174,6 +174,26 @@ impl<'a> Iterator for DrawIter<'a> {
 
 impl ExactSizeIterator for DrawIter<'_> {}
 
+impl DrawIter<'_> {
+    /// Takes up to so many draws off, fewer where one of several lists ends; none if none are left.
+    pub(crate) fn take_first(&mut self, count: usize) -> Self {
+        while self.draws.len() == 0
+            && let Some(list) = self.parts.next()
+        {
+            self.draws = list.iter();
+        }
+        let draws = self.draws.as_slice();
+        let (first, others) = draws.split_at(count.min(draws.len()));
+        self.draws = others.iter();
+        self.left -= first.len();
+        Self {
+            draws: first.iter(),
+            parts: [].iter(),
+            left: first.len(),
+        }
+    }
+}
+
 /// A viewport of a draw that has several.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct ViewportScissor {

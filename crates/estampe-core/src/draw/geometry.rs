@@ -3,8 +3,9 @@
 use super::{Context, Memory};
 use crate::bounds::chunk::Chunk;
 use crate::geometry::chunk::{Neighbours, add_part};
+use crate::geometry::shaded_vertices::VertexRun;
 use crate::geometry::shading::shade;
-use crate::plan::chunk_plan::{ChunkPart, VERTEX_CHUNK, part_size};
+use crate::plan::chunk_plan::{ChunkPart, ChunkPlan, VERTEX_CHUNK, part_size};
 use crate::plan::draw_batch::DrawBatch;
 use crate::recycle::recycled;
 use crate::schedule::Executor;
@@ -19,9 +20,22 @@ pub(super) struct ChunkJob<'a> {
     parts: &'a [ChunkPart],
 }
 
+/// A job of the first half of geometry.
+#[derive(Debug)]
+pub(super) enum VertexJob<'a> {
+    /// Divides the primitives of a group among chunks.
+    Plan(&'a mut ChunkPlan),
+    /// Shades vertices.
+    Shade(VertexRun<'a>),
+}
+
+/// Sub-draws of a group beyond which one thread divides their primitives while others shade
+/// vertices: of fewer this takes no longer than to wake a thread.
+const MANY_SUB_DRAWS: usize = 512;
+
 impl Context {
     /// Geometry, first half: every vertex of a group of sub-draws is shaded once and taken to the
-    /// window.
+    /// window, and their primitives are divided among chunks.
     pub(super) fn shade_vertices(
         &self,
         executor: &Executor,
@@ -30,36 +44,44 @@ impl Context {
     ) {
         memory.vertices.resize_for(&batch.group);
         let mut jobs = recycled(std::mem::take(&mut memory.lists.vertex_jobs));
+        // Groups grow with the threads.
+        let threads = self.executor.threads();
+        if executor.threads() > 1 && group.len() > MANY_SUB_DRAWS {
+            jobs.push(VertexJob::Plan(&mut memory.chunk_plan));
+        } else {
+            memory.chunk_plan.build((batch, group.clone()), threads);
+        }
         let spans = batch.spans(group.clone());
         let size = part_size(batch.group.count, executor.threads(), VERTEX_CHUNK);
+        let spans = (&batch.group, spans);
         memory
             .vertices
-            .split((&batch.group, spans), size, &mut jobs);
-        executor.for_each(&mut jobs, &memory.shading, |job, scratch| {
-            let sub_draws = &batch.sub_draws[group.clone()][job.sub_draws.clone()];
-            for sub_draw in sub_draws {
-                let source = sub_draw.vertex_source(batch.listed(sub_draw));
-                let transform = &batch.plan(sub_draw).transform;
-                let mut out = job.out.take(&sub_draw.span);
-                shade(self.level, &source, transform, job.first, &mut out, scratch);
+            .split(spans, size, |run| jobs.push(VertexJob::Shade(run)));
+        executor.for_each(&mut jobs, &memory.shading, |job, scratch| match job {
+            VertexJob::Plan(plan) => plan.build((batch, group.clone()), threads),
+            VertexJob::Shade(run) => {
+                let sub_draws = &batch.sub_draws[group.clone()][run.sub_draws.clone()];
+                for sub_draw in sub_draws {
+                    let source = sub_draw.vertex_source(batch.listed(sub_draw));
+                    let transform = &batch.plan(sub_draw).transform;
+                    let mut out = run.out.take(&sub_draw.span);
+                    shade(self.level, &source, transform, run.first, &mut out, scratch);
+                }
             }
         });
         memory.lists.vertex_jobs = recycled(jobs);
     }
 
     /// Geometry, second half: primitives are assembled, culled, clipped, set up and binned, in
-    /// chunks. Where a chunk ends changes no result: groups grow with the threads. The chunks of a
-    /// group come behind those of the groups before; gives how many they are, and what was counted.
+    /// the chunks of the plan. Where a chunk ends changes no result. The chunks of a group come
+    /// behind those of the groups before; gives how many they are, and what was counted.
     pub(super) fn build_chunks(
         &self,
-        (batch, group): (&DrawBatch<'_>, Range<usize>),
+        batch: &DrawBatch<'_>,
         samples: usize,
         before: usize,
         memory: &mut Memory,
     ) -> (usize, Statistics) {
-        let sub_draws = &batch.sub_draws[group.clone()];
-        let threads = self.executor.threads();
-        memory.chunk_plan.build(group.start, sub_draws, threads);
         let count = memory.chunk_plan.len();
         if memory.chunks.len() < before + count {
             memory.chunks.resize_with(before + count, Chunk::default);

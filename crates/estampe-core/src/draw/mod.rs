@@ -8,23 +8,20 @@ use crate::bounds::chunk::Chunk;
 use crate::bounds::chunk_index::ChunkIndex;
 use crate::commands::{Discards, Draw, RenderPass};
 use crate::geometry::chunk::ChunkScratch;
-use crate::geometry::shaded_vertices::{ShadedVertices, VertexJob};
+use crate::geometry::shaded_vertices::ShadedVertices;
 use crate::geometry::shading::ShadingScratch;
 use crate::plan::chunk_plan::ChunkPlan;
 use crate::plan::draw_batch::DrawBatch;
 use crate::plan::draw_cursor::DrawCursor;
-use crate::plan::draw_state::DrawState;
 use crate::plan::pass_check::{DrawNeeds, RenderPassError};
-use crate::plan::sub_draw::SubDraw;
 use crate::plan::tile_plan::{TilePlan, TileState};
 use crate::profile::JobTimings;
 use crate::raster::MAX_SAMPLES;
-use crate::recycle::recycled;
 use crate::schedule::{Awake, Executor, ThreadError, ThreadPool};
 use crate::statistics::Statistics;
 use crate::tile_pass::{Clear, TileJob, TileScratch};
 use estampe_simd::Level;
-use geometry::ChunkJob;
+use geometry::{ChunkJob, VertexJob};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Instant;
 use tiles::TileAttachments;
@@ -72,10 +69,9 @@ impl Memory {
 /// Lists whose elements borrow from a pass, empty between passes: see [`recycled`].
 #[derive(Debug, Default)]
 struct Lists {
-    states: Vec<DrawState<'static>>,
-    sub_draws: Vec<SubDraw<'static>>,
-    /// The first sub-draw of each state that tiles read; it borrows nothing.
-    first_of_states: Vec<usize>,
+    batch: DrawBatch<'static>,
+    /// Batches that threads cut parts of many draws into.
+    parts: Vec<DrawBatch<'static>>,
     vertex_jobs: Vec<VertexJob<'static>>,
     chunk_jobs: Vec<ChunkJob<'static>>,
     tile_states: Vec<TileState<'static>>,
@@ -210,12 +206,10 @@ impl Context {
         for rows in &mut target.rows {
             rows.is_done = false;
         }
-        let mut cursor = DrawCursor::new(pass.draws, self.level);
-        let mut batch = DrawBatch::new(
-            recycled(std::mem::take(&mut memory.lists.states)),
-            recycled(std::mem::take(&mut memory.lists.sub_draws)),
-            std::mem::take(&mut memory.lists.first_of_states),
-        );
+        let parts = std::mem::take(&mut memory.lists.parts);
+        let parts = parts.into_iter().map(DrawBatch::recycled).collect();
+        let mut cursor = DrawCursor::new(pass.draws, self.level, parts);
+        let mut batch = std::mem::take(&mut memory.lists.batch).recycled();
         let mut clear = Clear::new(target, pass);
         let mut is_cancelled = false;
         loop {
@@ -227,9 +221,9 @@ impl Context {
                 if is_cancelled {
                     break;
                 }
-                self.shade_vertices(executor, (&batch, group.clone()), memory);
+                self.shade_vertices(executor, (&batch, group), memory);
                 let samples = target.samples() as usize;
-                let (count, built) = self.build_chunks((&batch, group), samples, chunks, memory);
+                let (count, built) = self.build_chunks(&batch, samples, chunks, memory);
                 chunks += count;
                 statistics += built;
                 statistics.groups_of_geometry += 1;
@@ -275,9 +269,9 @@ impl Context {
             pass.control
                 .report(pass.draws.len() - cursor.draws_left(), pass.draws.len());
         }
-        memory.lists.states = recycled(batch.states);
-        memory.lists.sub_draws = recycled(batch.sub_draws);
-        memory.lists.first_of_states = batch.tile_states;
+        memory.lists.batch = batch.recycled();
+        let parts = cursor.into_memory().into_iter();
+        memory.lists.parts = parts.map(DrawBatch::recycled).collect();
         if is_cancelled {
             return Err(RenderPassError::Cancelled);
         }

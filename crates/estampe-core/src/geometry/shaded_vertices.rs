@@ -82,6 +82,24 @@ impl GroupVertices {
         self.has_point_sizes |= span.has_point_sizes;
         placed
     }
+
+    /// Adds the vertices of sub-draws that are in another batch's first group.
+    pub(crate) fn append(&mut self, other: &Self) {
+        self.count += other.count;
+        self.varyings += other.varyings;
+        self.keeps_clip_positions |= other.keeps_clip_positions;
+        self.has_point_sizes |= other.has_point_sizes;
+    }
+
+    /// The place behind these vertices of a span that is in another batch's first group.
+    pub(crate) fn moved(&self, span: VertexSpan) -> VertexSpan {
+        VertexSpan {
+            group: self.group,
+            first: self.count + span.first,
+            first_varying: self.varyings + span.first_varying,
+            ..span
+        }
+    }
 }
 
 /// The part of [`ShadedVertices`] that one job fills.
@@ -126,7 +144,7 @@ impl<'a> ShadedSlice<'a> {
 
 /// A run of vertices for one worker: a part of a sub-draw's, or those of several.
 #[derive(Debug)]
-pub(crate) struct VertexJob<'a> {
+pub(crate) struct VertexRun<'a> {
     /// The sub-draws' numbers in the group.
     pub(crate) sub_draws: Range<usize>,
     /// The first vertex, counted in the first sub-draw.
@@ -167,13 +185,13 @@ impl ShadedVertices {
         grow(&mut self.point_size, kept(group.has_point_sizes), 1.0);
     }
 
-    /// Cuts the vertices of the spans, which are all of a group, into jobs: a large span into parts
+    /// Cuts the vertices of the spans, which are all of a group, into runs: a large span into parts
     /// of at most `size`, small ones together.
     pub(crate) fn split<'a, 's>(
         &'a mut self,
         (group, spans): (&GroupVertices, impl Iterator<Item = &'s VertexSpan>),
         size: usize,
-        jobs: &mut Vec<VertexJob<'a>>,
+        mut add: impl FnMut(VertexRun<'a>),
     ) {
         let mut rest = ShadedSlice {
             window: &mut self.window,
@@ -193,14 +211,14 @@ impl ShadedVertices {
         }
         let together = size.min(TOGETHER);
         let (mut first, mut next) = (0, 0);
-        // Vertices and scalars of varyings of the spans that wait to be one job.
+        // Vertices and scalars of varyings of the spans that wait to be one run.
         let mut waiting = [0, 0];
-        let mut job = |sub_draws: Range<usize>, first: usize, [count, varyings]: [usize; 2]| {
+        let mut run = |sub_draws: Range<usize>, first: usize, [count, varyings]: [usize; 2]| {
             debug_assert!(
                 u32::try_from(first).is_ok(),
                 "a sub-draw of {first} vertices"
             );
-            jobs.push(VertexJob {
+            add(VertexRun {
                 sub_draws,
                 first: u32::try_from(first).unwrap_or(u32::MAX),
                 out: rest.take_all(count, varyings),
@@ -208,7 +226,7 @@ impl ShadedVertices {
         };
         for span in spans {
             if waiting[0] > 0 && waiting[0] + span.count > together {
-                job(first..next, 0, std::mem::take(&mut waiting));
+                run(first..next, 0, std::mem::take(&mut waiting));
                 first = next;
             }
             next += 1;
@@ -219,12 +237,12 @@ impl ShadedVertices {
             }
             for from in (0..span.count).step_by(size) {
                 let count = size.min(span.count - from);
-                job(first..next, from, [count, count * span.varying_scalars]);
+                run(first..next, from, [count, count * span.varying_scalars]);
             }
             first = next;
         }
         if waiting[0] > 0 {
-            job(first..next, 0, waiting);
+            run(first..next, 0, waiting);
         }
     }
 
@@ -322,12 +340,12 @@ mod tests {
                 ..VertexSpan::default()
             });
             vertices.resize_for(&group);
-            let mut jobs = Vec::new();
-            vertices.split((&group, [span].iter()), 100, &mut jobs);
-            assert_eq!(jobs[0].out.window.len(), count);
+            let mut runs = Vec::new();
+            vertices.split((&group, [span].iter()), 100, |run| runs.push(run));
+            assert_eq!(runs[0].out.window.len(), count);
             let kept = if keeps_clip_positions { count } else { 0 };
-            assert_eq!(jobs[0].out.clip.len(), kept);
-            assert_eq!(jobs[0].out.point_size.len(), kept);
+            assert_eq!(runs[0].out.clip.len(), kept);
+            assert_eq!(runs[0].out.point_size.len(), kept);
         }
     }
 
@@ -344,9 +362,9 @@ mod tests {
             });
             assert_eq!(span.group, number);
             vertices.resize_for(&group);
-            let mut jobs = Vec::new();
-            vertices.split((&group, [span].iter()), count, &mut jobs);
-            jobs[0].out.varyings.fill(number as f32);
+            let mut runs = Vec::new();
+            vertices.split((&group, [span].iter()), count, |run| runs.push(run));
+            runs[0].out.varyings.fill(number as f32);
             spans.push((number, span));
             group = group.following();
         }
@@ -359,7 +377,7 @@ mod tests {
     }
 
     #[test]
-    fn jobs_and_spans_share_the_same_places() {
+    fn runs_and_spans_share_the_same_places() {
         let mut vertices = ShadedVertices::default();
         let mut group = GroupVertices::default();
         let kinds = [(5, 2, false), (3, 0, true), (4, 3, true)];
@@ -382,23 +400,23 @@ mod tests {
         ];
         for (turn, (size, expected)) in (0..).zip(cases) {
             vertices.resize_for(&group);
-            let mut jobs = Vec::new();
-            vertices.split((&group, spans.iter()), size, &mut jobs);
-            let pieces = jobs.iter().map(|job| (job.sub_draws.start, job.first));
-            assert!(pieces.eq(expected.iter().copied()), "{jobs:?}");
-            for job in &mut jobs {
-                for number in job.sub_draws.clone() {
-                    let out = job.out.take(&spans[number]);
+            let mut runs = Vec::new();
+            vertices.split((&group, spans.iter()), size, |run| runs.push(run));
+            let pieces = runs.iter().map(|run| (run.sub_draws.start, run.first));
+            assert!(pieces.eq(expected.iter().copied()), "{runs:?}");
+            for run in &mut runs {
+                for number in run.sub_draws.clone() {
+                    let out = run.out.take(&spans[number]);
                     // The third vertex of each lies in its part that begins with the third one, or
                     // in its first part.
-                    let part = if job.first > 2 { 9 } else { 0 };
+                    let part = if run.first > 2 { 9 } else { 0 };
                     let stamp = u32::try_from(number).unwrap() * 100 + part + turn;
                     out.window.fill([stamp; 4]);
                     out.clip.fill([stamp; 4]);
                     out.varyings.fill(stamp as f32);
                     out.point_size.fill(stamp as f32);
                 }
-                assert!(job.out.window.is_empty() && job.out.varyings.is_empty());
+                assert!(run.out.window.is_empty() && run.out.varyings.is_empty());
             }
             for (number, span) in (0..).zip(&spans) {
                 let found = vertices.of_span(span);

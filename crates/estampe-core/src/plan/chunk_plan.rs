@@ -3,8 +3,10 @@
 //! Tiles read chunks in order, so that where a chunk ends changes no image. Small sub-draws share a
 //! chunk, large ones take several; with many threads chunks are smaller, so that all have some.
 
+use super::draw_batch::DrawBatch;
 use super::sub_draw::SubDraw;
 use crate::bounds::chunk::number;
+use std::ops::Range;
 
 /// Primitives of a chunk at most, but for stippled strips, which are not cut; then the limit where
 /// there are too few for the threads. Where a mesh lies all over the picture, each tile has a run
@@ -55,9 +57,9 @@ struct Most {
 }
 
 impl ChunkPlan {
-    /// Divides the primitives of sub-draws, the first of which has a number in the batch, among
-    /// threads.
-    pub(crate) fn build(&mut self, first: usize, sub_draws: &[SubDraw<'_>], threads: usize) {
+    /// Divides the primitives of a group of a batch's sub-draws among threads.
+    pub(crate) fn build(&mut self, (batch, group): (&DrawBatch<'_>, Range<usize>), threads: usize) {
+        let (first, sub_draws) = (group.start, &batch.sub_draws[group]);
         self.parts.clear();
         self.ends.clear();
         let all = sub_draws.iter().map(SubDraw::total_primitives).sum();
@@ -74,11 +76,13 @@ impl ChunkPlan {
                 "a batch's budget is far below 2³²"
             );
             let total = u32::try_from(total).unwrap_or(u32::MAX);
-            let size = sub_draw
-                .uncut_primitives()
-                .unwrap_or(self.most.primitives)
-                .max(1);
-            self.add(number, total, size, &mut open);
+            // Without a look at the draw, which is in no near cache.
+            let size = if batch.state(sub_draw).is_uncut {
+                sub_draw.primitives
+            } else {
+                self.most.primitives
+            };
+            self.add(number, total, size.max(1), &mut open);
         }
         self.close(&mut open);
     }

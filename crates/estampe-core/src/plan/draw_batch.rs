@@ -10,6 +10,7 @@ use crate::commands::Draw;
 use crate::geometry::plan::GeometryPlan;
 use crate::geometry::shaded_vertices::{GroupVertices, ShadedVertices, VertexSpan};
 use crate::pipeline::primitive_kind::PrimitiveKind;
+use crate::recycle::recycled;
 use crate::schedule::Executor;
 use crate::tile_path::{PathFacts, TilePath};
 use estampe_simd::{LANES, Level};
@@ -39,17 +40,15 @@ pub(crate) struct DrawBatch<'a> {
 }
 
 impl<'a> DrawBatch<'a> {
-    /// An empty batch in the memory of others.
-    pub(crate) fn new(
-        states: Vec<DrawState<'a>>,
-        sub_draws: Vec<SubDraw<'a>>,
-        tile_states: Vec<usize>,
-    ) -> Self {
-        Self {
-            states,
-            sub_draws,
-            tile_states,
-            ..Self::default()
+    /// An empty batch of other draws, in the same memory.
+    pub(crate) fn recycled<'b>(mut self) -> DrawBatch<'b> {
+        self.clear();
+        DrawBatch {
+            states: recycled(self.states),
+            sub_draws: recycled(self.sub_draws),
+            tile_states: self.tile_states,
+            listed: self.listed,
+            ..DrawBatch::default()
         }
     }
 
@@ -116,6 +115,46 @@ impl<'a> DrawBatch<'a> {
         }
         sub_draw.tile_state = number(self.tile_states.len() - 1);
         self.sub_draws.push(sub_draw);
+    }
+
+    /// Adds the sub-draws of a batch of one group behind those of the group at hand, and empties
+    /// that batch.
+    pub(super) fn append(&mut self, part: &mut Self) {
+        self.invisible_primitives += part.invisible_primitives;
+        self.shaded += part.shaded;
+        self.vertices += part.vertices;
+        self.primitives += part.primitives;
+        let Some(first) = part.sub_draws.first() else {
+            return part.clear();
+        };
+        // The state of the last sub-draw goes on.
+        let last = self.states.last();
+        let goes_on = first.state == 0 && last.is_some_and(|last| last.is_of(first.draw));
+        let states = number(self.states.len() - usize::from(goes_on));
+        self.states
+            .extend(part.states.drain(..).skip(usize::from(goes_on)));
+        let first = SubDraw {
+            state: first.state + states,
+            ..*first
+        };
+        let last = self.sub_draws.last();
+        let goes_on = last.is_some_and(|last| last.has_tile_state_of(&first));
+        let tile_states = number(self.tile_states.len() - usize::from(goes_on));
+        let before = self.sub_draws.len();
+        let new = part.tile_states.iter().skip(usize::from(goes_on));
+        self.tile_states.extend(new.map(|first| before + first));
+        let (group, listed) = (self.group, number(self.listed.len()));
+        self.sub_draws
+            .extend(part.sub_draws.iter().map(|sub_draw| SubDraw {
+                state: sub_draw.state + states,
+                tile_state: sub_draw.tile_state + tile_states,
+                span: group.moved(sub_draw.span),
+                listed: sub_draw.listed.map(|number| number + listed),
+                ..*sub_draw
+            }));
+        self.listed.append(&mut part.listed);
+        self.group.append(&part.group);
+        part.clear();
     }
 
     /// A sub-draw's lists of vertices, if it has some.

@@ -4,6 +4,7 @@
 //! Programs change state less often than they draw: neighbouring draws share one [`DrawState`], so
 //! that a draw that differs in its bindings or vertices alone costs a comparison.
 
+use super::index_range::is_stippled_strip;
 use crate::attachment::RenderTarget;
 use crate::bounds::pixel_rect::PixelRect;
 use crate::commands::Draw;
@@ -18,6 +19,9 @@ use estampe_types::state::{ConservativeMode, ScissorRect, Viewport};
 pub(crate) struct DrawState<'a> {
     key: StateKey<'a>,
     pub(crate) geometry: GeometryPlan,
+    /// True if the primitives of an instance stay in one chunk: the pattern of each line of a
+    /// stippled strip goes on where that of the one before ended.
+    pub(super) is_uncut: bool,
 }
 
 /// Returns true if small triangles that are drawn in order are listed, and none of their varyings
@@ -72,6 +76,7 @@ impl<'a> DrawState<'a> {
                 scissor: draw.scissor,
             },
             geometry,
+            is_uncut: is_stippled_strip(draw),
         })
     }
 

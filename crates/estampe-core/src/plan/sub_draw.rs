@@ -1,6 +1,6 @@
 //! Sub-draws: the pieces that draws are cut into.
 
-use super::index_range::{IndexRange, is_line_strip, is_stippled_strip};
+use super::index_range::{IndexRange, is_line_strip};
 use crate::commands::Draw;
 use crate::geometry::assembly::ElementSource;
 use crate::geometry::groups::InstanceSize;
@@ -131,12 +131,6 @@ impl<'a> SubDraw<'a> {
     /// Primitives of all instances.
     pub(crate) fn total_primitives(&self) -> usize {
         (self.primitives as usize).saturating_mul(self.instances as usize)
-    }
-
-    /// Primitives of one instance if a chunk may not cut these: the pattern of each line of a
-    /// stippled strip goes on where that of the one before ended.
-    pub(super) fn uncut_primitives(&self) -> Option<u32> {
-        is_stippled_strip(self.draw).then_some(self.primitives)
     }
 
     /// Returns the source of the vertices.

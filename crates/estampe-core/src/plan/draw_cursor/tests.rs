@@ -1,8 +1,11 @@
 //! Sub-draws and batches into which draws are cut, and what belongs to each.
 
+use super::open_draw::SUB_DRAW_PRIMITIVES;
 use super::*;
 use crate::attachment::{ColorTexels, DepthStencilTexels, ImageSize};
+use crate::commands::Draw;
 use crate::pipeline::{RenderPipeline, RenderPipelineDescriptor};
+use crate::plan::sub_draw::SubDraw;
 use estampe_types::shader::VertexOut;
 use estampe_types::state::{PrimitiveTopology, ScissorRect, Viewport};
 use estampe_types::{
@@ -49,7 +52,7 @@ fn cut(draws: &[Draw<'_>], mut check: impl FnMut(usize, &DrawBatch<'_>)) -> usiz
     let target = RenderTarget::of_images(size, vec![color], Some(depth));
     let executor = Executor::new(1).unwrap();
     let (mut cursor, mut batch) = (
-        DrawCursor::new(draws.into(), Level::best()),
+        DrawCursor::new(draws.into(), Level::best(), Vec::new()),
         DrawBatch::default(),
     );
     let mut batches = 0;
@@ -214,4 +217,145 @@ fn elements_beyond_the_index_buffer_are_left_out_and_counted() {
         assert_eq!(batch.invisible_primitives, 2 * 96);
     });
     assert_eq!(batches, 1);
+}
+
+/// What does not depend on where parts of draws ended: all but the places of vertices.
+type Facts = (usize, [u32; 2], [u32; 7], Option<u32>);
+
+/// The sub-draws of draws on so many threads, and how many of their parts threads cut.
+fn facts_on(threads: usize, draws: DrawList<'_>) -> (Vec<Facts>, Vec<usize>, usize) {
+    let size = ImageSize {
+        width: 40,
+        height: 30,
+        samples: 1,
+    };
+    let target = RenderTarget::of_images(size, Vec::new(), None);
+    let executor = Executor::new(threads).unwrap();
+    let mut batch = DrawBatch::default();
+    let mut cursor = DrawCursor::new(draws, Level::best(), Vec::new());
+    assert_eq!(cursor.draws_left(), draws.len());
+    let mut places = Vec::new();
+    while let Some(group) = cursor.next_group(&executor, &target, &mut batch) {
+        let (mut vertices, mut scalars) = (0, 0);
+        for span in batch.spans(group) {
+            places.push(span.group);
+            assert_eq!((span.first, span.first_varying), (vertices, scalars));
+            vertices += span.count;
+            scalars += span.count * span.varying_scalars;
+        }
+        assert_eq!(vertices, batch.group.count);
+    }
+    assert!(cursor.is_at_end());
+    let facts = batch.sub_draws.iter().map(|sub_draw| {
+        let ranges = [
+            sub_draw.first_instance,
+            sub_draw.instances,
+            sub_draw.first_vertex,
+            sub_draw.vertices,
+            sub_draw.primitives,
+            sub_draw.state,
+            sub_draw.tile_state,
+        ];
+        let draw = std::ptr::from_ref(sub_draw.draw).addr();
+        (draw, sub_draw.elements, ranges, sub_draw.listed)
+    });
+    let facts = facts.collect();
+    let primitives = batch.sub_draws.iter().map(SubDraw::total_primitives);
+    assert_eq!(batch.primitives, primitives.sum::<usize>());
+    let parts = cursor.into_memory();
+    let empty = |part: &DrawBatch<'_>| part.sub_draws.is_empty() && part.states.is_empty();
+    assert!(parts.iter().all(empty), "parts that were joined");
+    (facts, batch.tile_states, parts.len())
+}
+
+#[test]
+fn many_draws_are_cut_by_threads_as_by_one() {
+    let lists = [3, 6].map(|_| pipeline(PrimitiveTopology::TriangleList, 1));
+    let mut restarting = RenderPipelineDescriptor::new(Plain);
+    restarting.primitive.topology = PrimitiveTopology::TriangleStrip;
+    restarting.primitive.primitive_restart = true;
+    let restarting = RenderPipeline::new(&restarting, &Limits::default()).unwrap();
+    let indices: Vec<u8> = (0..3_000_u32)
+        .flat_map(|at| (at % 97 * 5).to_le_bytes())
+        .collect();
+    let indices = BufferData::from_bytes(&indices);
+    let mut state = 7_u32;
+    let mut below = |limit: u32| {
+        state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        (state >> 8) % limit
+    };
+    let mut draw = |large: u32| {
+        let pipeline = &lists[below(2) as usize];
+        let count = below(40);
+        let mut draw = Draw::new(pipeline, 0..count);
+        match below(large) {
+            0 => draw.elements.end = 200_001,
+            1 => draw.instances.end = 5_000,
+            2 => {
+                draw.pipeline = &restarting;
+                draw.indices = Some((&indices, IndexFormat::Uint32));
+            }
+            // Sparse, if it is short.
+            3..30 => draw.indices = Some((&indices, IndexFormat::Uint32)),
+            _ => {}
+        }
+        if below(20) == 0 {
+            let x = below(3) * 20;
+            draw.scissor = Some(ScissorRect {
+                x,
+                y: 0,
+                width: 20,
+                height: 30,
+            });
+        }
+        draw.stencil_reference = [u8::from(below(9) == 0); 2];
+        draw
+    };
+    // Small draws alone, of which whole parts are cut, and with others between them, where they
+    // end.
+    for (count, large, least) in [(256, 3_000, 0), (3_000, 3_000_000, 12), (3_000, 1_000, 12)] {
+        let mut all: Vec<Draw<'_>> = (0..count).map(|_| draw(large)).collect();
+        let (facts, states, parts) = facts_on(1, all[..].into());
+        assert_eq!(parts, 0);
+        assert!(
+            facts.len() * 10 > all.len() * 8,
+            "{} sub-draws",
+            facts.len()
+        );
+        let becomes_several = |pair: &[Facts]| pair[0].0 == pair[1].0;
+        assert_eq!(facts.windows(2).any(becomes_several), large == 1_000);
+        for threads in [2, 5] {
+            let of_threads = facts_on(threads, all[..].into());
+            assert_eq!(of_threads.0, facts);
+            assert_eq!(of_threads.1, states);
+            // Two threads cut eight parts at once.
+            let least = least.min(threads * 4);
+            assert!(of_threads.2 >= least, "{} parts", of_threads.2);
+            assert!(least > 0 || of_threads.2 == 0);
+        }
+        // The same draws in lists of any length.
+        let whole = facts_on(3, all[..].into());
+        let addresses: Vec<usize> = all
+            .iter()
+            .map(|draw| std::ptr::from_ref(draw).addr())
+            .collect();
+        let mut lists = vec![Vec::new()];
+        for (number, draw) in all.drain(..).enumerate() {
+            if number % 700 == 0 {
+                lists.push(Vec::new());
+            }
+            lists.last_mut().unwrap().push(draw);
+        }
+        let of_lists = facts_on(3, DrawList::Parts(&lists));
+        let now = lists
+            .iter()
+            .flatten()
+            .map(|draw| std::ptr::from_ref(draw).addr());
+        let before: std::collections::HashMap<usize, usize> = now.zip(addresses).collect();
+        let found = of_lists
+            .0
+            .iter()
+            .map(|facts| (before[&facts.0], facts.1, facts.2, facts.3));
+        assert!(found.eq(whole.0.iter().copied()));
+    }
 }
