@@ -203,7 +203,7 @@ mod x86 {
     }
 
     #[inline(always)]
-    pub(crate) fn list_word_avx512<const MOST: usize>(
+    pub(crate) fn list_word_avx512(
         simd: Avx512,
         bits: u32,
         first: u16,
@@ -220,16 +220,7 @@ mod x86 {
         };
         let mask = mask16x32::from_bitmask(simd, u64::from(bits));
         let numbers = u16x32::load_array(simd, NUMBERS).compress(mask);
-        let numbers = numbers + u16x32::splat(simd, first);
-        // Lists are written wherever the one before ends: most stores of a cache line's length
-        // would be in two lines.
-        let (low, _) = numbers.split();
-        let (lowest, _) = low.split();
-        match MOST {
-            0..=8 => lowest.store_slice(&mut out[..8]),
-            9..=16 => low.store_slice(&mut out[..16]),
-            _ => numbers.store_array(out),
-        }
+        (numbers + u16x32::splat(simd, first)).store_array(out);
         bits.count_ones() as usize
     }
 

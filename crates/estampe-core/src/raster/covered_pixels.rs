@@ -63,11 +63,9 @@ impl<const N: usize> SmallBoxes<N> {
         list: &mut PixelList,
     ) {
         // Four rows of a box are a word.
-        match (self.rows, self.columns * self.rows) {
-            (0..=4, 0..=8) => list.fill::<S, 1, 8>(s, covered, lanes),
-            (0..=4, 9..=16) => list.fill::<S, 1, 16>(s, covered, lanes),
-            (0..=4, _) => list.fill::<S, 1, 32>(s, covered, lanes),
-            _ => list.fill::<S, 2, 32>(s, covered, lanes),
+        match self.rows {
+            0..=4 => list.fill::<S, 1>(s, covered, lanes),
+            _ => list.fill::<S, 2>(s, covered, lanes),
         }
     }
 

@@ -80,11 +80,10 @@ impl PixelList {
         self.len
     }
 
-    /// Lists the pixels whose bits are set, of `HALVES` times four rows of the boxes in `lanes`. Of
-    /// four rows `OF_WORD` pixels are covered at most.
+    /// Lists the pixels whose bits are set, of `HALVES` times four rows of the boxes in `lanes`.
     #[inline(always)]
     #[expect(clippy::cast_possible_truncation, reason = "a list has 1024 pixels")]
-    pub(super) fn fill<S: Lanes, const HALVES: usize, const OF_WORD: usize>(
+    pub(super) fn fill<S: Lanes, const HALVES: usize>(
         &mut self,
         s: S,
         covered: &[Packet<u32>; 2],
@@ -100,7 +99,7 @@ impl PixelList {
                     unreachable!("{len} pixels of sixteen small triangles");
                 };
                 let first = (lane * PIXELS + half * FOUR_ROWS) as u16;
-                len += s.list_bits_of_word::<OF_WORD>(bits & listed, first, out);
+                len += s.list_bits_of_word(bits & listed, first, out);
             }
         }
         self.len = len;

@@ -60,8 +60,7 @@ pub(super) struct BoxPixels<S: Lanes> {
 pub(crate) struct SmallBoxes<const N: usize> {
     /// By sample and lane: bit 8·row + column is that pixel of its box, rows 0 to 3 and 4 to 7.
     pub(super) covered: [[Packet<u32>; 2]; N],
-    /// Columns of the widest box, and rows of the highest.
-    pub(super) columns: usize,
+    /// Rows of the largest box.
     pub(super) rows: usize,
     /// By lane: column and row of the box's first pixel in the tile, the row in the upper half.
     pub(super) first: Packet<u32>,
@@ -77,7 +76,6 @@ impl<const N: usize> Default for SmallBoxes<N> {
     fn default() -> Self {
         Self {
             covered: [[Packet::default(); 2]; N],
-            columns: 0,
             rows: 0,
             first: Packet::default(),
             extent: [0; LANES],
@@ -263,7 +261,7 @@ impl<const N: usize> SmallBoxes<N> {
             upper.store_array(&mut covered[0].0);
             lower.store_array(&mut covered[1].0);
         }
-        (self.columns, self.rows) = (columns as usize, rows as usize);
+        self.rows = rows as usize;
     }
 
     /// Notes where the boxes are in the tile, and how far, in 1/256 pixel, the first samples of

@@ -229,14 +229,9 @@ pub trait Lanes: Simd {
         crate::permute::list_by_table(bits, first, out)
     }
 
-    /// [`list_bits`](Self::list_bits) of 32 bits, of which `MOST` are set at most, as half words.
+    /// [`list_bits`](Self::list_bits) of 32 bits, as half words.
     #[inline(always)]
-    fn list_bits_of_word<const MOST: usize>(
-        self,
-        bits: u32,
-        first: u16,
-        out: &mut [u16; 32],
-    ) -> usize {
+    fn list_bits_of_word(self, bits: u32, first: u16, out: &mut [u16; 32]) -> usize {
         crate::permute::list_word_by_table(bits, first, out)
     }
 

@@ -193,12 +193,7 @@ impl Lanes for Avx2 {
         crate::permute::list_avx2(self, bits, first, out)
     }
     #[inline(always)]
-    fn list_bits_of_word<const MOST: usize>(
-        self,
-        bits: u32,
-        first: u16,
-        out: &mut [u16; 32],
-    ) -> usize {
+    fn list_bits_of_word(self, bits: u32, first: u16, out: &mut [u16; 32]) -> usize {
         crate::permute::list_word_avx2(self, bits, first, out)
     }
     #[inline(always)]
@@ -379,13 +374,8 @@ impl Lanes for Avx512 {
         crate::permute::list_avx512(self, bits, first, out)
     }
     #[inline(always)]
-    fn list_bits_of_word<const MOST: usize>(
-        self,
-        bits: u32,
-        first: u16,
-        out: &mut [u16; 32],
-    ) -> usize {
-        crate::permute::list_word_avx512::<MOST>(self, bits, first, out)
+    fn list_bits_of_word(self, bits: u32, first: u16, out: &mut [u16; 32]) -> usize {
+        crate::permute::list_word_avx512(self, bits, first, out)
     }
     #[inline(always)]
     fn widen(self, values: &[u16; 16]) -> u32x16<Self> {

@@ -187,7 +187,6 @@ fn bits_of_words_are_listed_in_ascending_order() {
         state ^ state >> 16
     };
     for level in Level::all_available() {
-        let mut counts = [0; 2];
         for turn in 0..2000 {
             let bits = match turn {
                 0 => 0,
@@ -196,23 +195,14 @@ fn bits_of_words_are_listed_in_ascending_order() {
                 _ => random() | random(),
             };
             let mut out = [u16::MAX; 32];
-            let count = dispatch!(level, s => s.list_bits_of_word::<32>(bits, 992, &mut out));
+            let count = dispatch!(level, s => s.list_bits_of_word(bits, 992, &mut out));
             let expected: Vec<u16> = (0..32).filter(|bit| bits >> bit & 1 == 1).collect();
             let expected: Vec<u16> = expected.into_iter().map(|bit| 992 + bit).collect();
             assert_eq!(out[..count], expected, "{bits:#x} at {}", level.name());
-            let mut out = [u16::MAX; 32];
-            let few = match count {
-                0..=8 => dispatch!(level, s => s.list_bits_of_word::<8>(bits, 992, &mut out)),
-                9..=16 => dispatch!(level, s => s.list_bits_of_word::<16>(bits, 992, &mut out)),
-                _ => continue,
-            };
-            counts[usize::from(few > 8)] += 1;
-            assert_eq!(out[..few], expected, "{bits:#x} at {}", level.name());
             let half = out.first_chunk().unwrap();
             let wide = dispatch!(level, s => s.widen(half).to_array());
             assert_eq!(wide, half.map(u32::from), "{}", level.name());
         }
-        assert!(counts.iter().all(|count| *count > 300), "{counts:?}");
     }
 }
 
