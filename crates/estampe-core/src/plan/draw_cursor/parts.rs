@@ -1,10 +1,10 @@
 //! Many draws, cut on all threads.
 //!
-//! A pass of ten thousand small draws is cut in as much time as sixteen cores need for a sixth of
-//! its geometry. So each thread cuts a few hundred of them into a batch of its own, and these
-//! batches are joined in order. A part ends before a draw that is large or restarts primitives:
-//! this draw, and those behind it in the part, are then cut one after the other, so that no thread
-//! makes much that waits.
+//! To cut ten thousand small draws takes one thread 0.44 ms, and sixteen threads 1.1 ms to do their
+//! geometry (`many_draws`). So each thread cuts a few hundred draws into a batch of its own, and
+//! these batches are joined in order. A part ends before a draw that is large or restarts
+//! primitives: this draw, and those behind it in the part, are then cut one after the other, so
+//! that no thread makes much that waits.
 //!
 //! ```text
 //!   draws ─▶ parts of 256 ─▶ each cut by a thread ─▶ joined in order, with what they left between
