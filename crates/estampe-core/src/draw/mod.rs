@@ -66,7 +66,7 @@ impl Memory {
     }
 }
 
-/// Lists whose elements borrow from a pass, empty between passes: see [`recycled`].
+/// Lists whose elements borrow from a pass, empty between passes: see [`recycled`](crate::recycle::recycled).
 #[derive(Debug, Default)]
 struct Lists {
     batch: DrawBatch<'static>,

@@ -92,7 +92,7 @@ impl<'a> DrawCursor<'a> {
             if let Some(open) = self.now.take() {
                 let indices = (executor, &mut self.known);
                 self.now.current = cut(open, indices, target, batch);
-            } else if let Some(left) = self.parts.next(batch) {
+            } else if let Some(left) = self.parts.join_next(batch) {
                 self.now = left;
             } else if self.later.len() == 0 {
                 break;

@@ -58,7 +58,7 @@ impl<'a> Parts<'a> {
     }
 
     /// Adds the next part to a batch; gives its draws that were not cut.
-    pub(super) fn next(&mut self, batch: &mut DrawBatch<'a>) -> Option<UncutDraws<'a>> {
+    pub(super) fn join_next(&mut self, batch: &mut DrawBatch<'a>) -> Option<UncutDraws<'a>> {
         let mut part = self.cut.pop_front()?;
         batch.append(&mut part.batch);
         self.memory.push(part.batch);

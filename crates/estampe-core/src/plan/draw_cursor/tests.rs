@@ -219,10 +219,12 @@ fn elements_beyond_the_index_buffer_are_left_out_and_counted() {
     assert_eq!(batches, 1);
 }
 
-/// What does not depend on where parts of draws ended: all but the places of vertices.
-type Facts = (usize, [u32; 2], [u32; 7], Option<u32>);
+/// The facts of a sub-draw that do not depend on where parts of draws end: all but the places of
+/// its vertices. The last is what is listed of them.
+type Facts = (usize, [u32; 2], [u32; 7], Option<String>);
 
-/// The sub-draws of draws on so many threads, and how many of their parts threads cut.
+/// The sub-draws of draws on so many threads, the first of each state of tiles, and how many parts
+/// of the draws threads cut.
 fn facts_on(threads: usize, draws: DrawList<'_>) -> (Vec<Facts>, Vec<usize>, usize) {
     let size = ImageSize {
         width: 40,
@@ -234,11 +236,9 @@ fn facts_on(threads: usize, draws: DrawList<'_>) -> (Vec<Facts>, Vec<usize>, usi
     let mut batch = DrawBatch::default();
     let mut cursor = DrawCursor::new(draws, Level::best(), Vec::new());
     assert_eq!(cursor.draws_left(), draws.len());
-    let mut places = Vec::new();
     while let Some(group) = cursor.next_group(&executor, &target, &mut batch) {
         let (mut vertices, mut scalars) = (0, 0);
         for span in batch.spans(group) {
-            places.push(span.group);
             assert_eq!((span.first, span.first_varying), (vertices, scalars));
             vertices += span.count;
             scalars += span.count * span.varying_scalars;
@@ -257,7 +257,8 @@ fn facts_on(threads: usize, draws: DrawList<'_>) -> (Vec<Facts>, Vec<usize>, usi
             sub_draw.tile_state,
         ];
         let draw = std::ptr::from_ref(sub_draw.draw).addr();
-        (draw, sub_draw.elements, ranges, sub_draw.listed)
+        let listed = batch.listed(sub_draw).map(|listed| format!("{listed:?}"));
+        (draw, sub_draw.elements, ranges, listed)
     });
     let facts = facts.collect();
     let primitives = batch.sub_draws.iter().map(SubDraw::total_primitives);
@@ -270,7 +271,7 @@ fn facts_on(threads: usize, draws: DrawList<'_>) -> (Vec<Facts>, Vec<usize>, usi
 
 #[test]
 fn many_draws_are_cut_by_threads_as_by_one() {
-    let lists = [3, 6].map(|_| pipeline(PrimitiveTopology::TriangleList, 1));
+    let pipelines = [(), ()].map(|()| pipeline(PrimitiveTopology::TriangleList, 1));
     let mut restarting = RenderPipelineDescriptor::new(Plain);
     restarting.primitive.topology = PrimitiveTopology::TriangleStrip;
     restarting.primitive.primitive_restart = true;
@@ -285,7 +286,7 @@ fn many_draws_are_cut_by_threads_as_by_one() {
         (state >> 8) % limit
     };
     let mut draw = |large: u32| {
-        let pipeline = &lists[below(2) as usize];
+        let pipeline = &pipelines[below(2) as usize];
         let count = below(40);
         let mut draw = Draw::new(pipeline, 0..count);
         match below(large) {
@@ -295,7 +296,7 @@ fn many_draws_are_cut_by_threads_as_by_one() {
                 draw.pipeline = &restarting;
                 draw.indices = Some((&indices, IndexFormat::Uint32));
             }
-            // Sparse, if it is short.
+            // Sparse, unless they are few.
             3..30 => draw.indices = Some((&indices, IndexFormat::Uint32)),
             _ => {}
         }
@@ -333,7 +334,9 @@ fn many_draws_are_cut_by_threads_as_by_one() {
             assert!(of_threads.2 >= least, "{} parts", of_threads.2);
             assert!(least > 0 || of_threads.2 == 0);
         }
-        // The same draws in lists of any length.
+        let is_listed = facts.iter().any(|facts| facts.3.is_some());
+        assert_eq!(is_listed, large == 1_000 || count == 256);
+        // The same draws in several lists, whose ends are ends of parts.
         let whole = facts_on(3, all[..].into());
         let addresses: Vec<usize> = all
             .iter()
@@ -355,7 +358,7 @@ fn many_draws_are_cut_by_threads_as_by_one() {
         let found = of_lists
             .0
             .iter()
-            .map(|facts| (before[&facts.0], facts.1, facts.2, facts.3));
-        assert!(found.eq(whole.0.iter().copied()));
+            .map(|facts| (before[&facts.0], facts.1, facts.2, facts.3.clone()));
+        assert!(found.eq(whole.0));
     }
 }
