@@ -26,26 +26,26 @@ pub(crate) struct Profiler {
 }
 
 impl Profiler {
-    /// Runs `work` with what gives it `items`, one at a time.
-    pub(crate) fn hand_out<'i, T>(
+    /// Runs `work` with what gives it jobs of a type, one at a time; `count` is how many there are.
+    pub(crate) fn hand_out<J>(
         &self,
-        items: &'i mut [T],
-        work: impl FnOnce(&mut dyn FnMut() -> Option<&'i mut [T]>),
+        (job_type, count): (&'static str, usize),
+        mut next: impl FnMut() -> Option<J>,
+        work: impl FnOnce(&mut dyn FnMut() -> Option<J>),
     ) {
-        let mut left = items.chunks_mut(1);
-        let mut times = Vec::with_capacity(left.len() + 1);
+        let mut times = Vec::with_capacity(count + 1);
         work(&mut || {
             times.push(Instant::now());
-            left.next()
+            next()
         });
         let Some(&start) = times.first() else {
             return;
         };
-        let jobs = times.windows(2).map(|ends| ends[1] - ends[0]);
+        let times = times.windows(2).map(|ends| ends[1] - ends[0]);
         let timings = JobTimings {
-            job_type: std::any::type_name::<T>(),
+            job_type,
             start,
-            jobs: jobs.collect(),
+            jobs: times.collect(),
         };
         self.lock().push(timings);
     }

@@ -49,8 +49,6 @@ pub(crate) struct Bins {
     /// there are tiles.
     starts: Vec<u32>,
     first_tile: u32,
-    /// The tiles that have entries, one bit each: the first word is that of `first_tile`.
-    touched: Vec<u64>,
     /// The index in `unsorted` of the first entry of the packet that is being binned: entries from
     /// there on may be merged.
     mergeable_from: usize,
@@ -61,7 +59,6 @@ impl Bins {
         self.unsorted.clear();
         self.sorted.clear();
         self.starts.clear();
-        self.touched.clear();
         self.mergeable_from = 0;
     }
 
@@ -113,17 +110,12 @@ impl Bins {
             self.starts[at] = self.starts[at - 1];
         }
         self.starts[0] = 0;
-        self.note_touched();
     }
 
-    /// Notes which tiles have entries.
-    fn note_touched(&mut self) {
-        // As if the tiles began at that of the first bit, where none has entries yet.
-        let before = (self.first_tile % 64) as usize;
-        let words = (before + self.starts.len() - 1).div_ceil(64);
-        self.touched.resize(words, 0);
-        for (at, ends) in (before..).zip(self.starts.windows(2)) {
-            self.touched[at / 64] |= u64::from(ends[0] < ends[1]) << (at % 64);
+    /// Notes the tiles that have entries in a list of bits, which are not set yet.
+    pub(crate) fn note_reached(&self, reached: &mut [u64]) {
+        for (tile, ends) in (self.first_tile as usize..).zip(self.starts.windows(2)) {
+            reached[tile / 64] |= u64::from(ends[0] < ends[1]) << (tile % 64);
         }
     }
 
@@ -137,14 +129,6 @@ impl Bins {
             (Some(&from), Some(&to)) => &self.sorted[from as usize..to as usize],
             _ => &[],
         }
-    }
-
-    /// Which of the tiles 64 · `word` to 64 · `word` + 63 have entries, one bit each.
-    pub(super) fn touched(&self, word: usize) -> u64 {
-        let at = word.checked_sub(self.first_tile as usize / 64);
-        at.and_then(|at| self.touched.get(at))
-            .copied()
-            .unwrap_or_default()
     }
 }
 
@@ -175,7 +159,7 @@ mod tests {
     }
 
     #[test]
-    fn touched_tiles_are_those_with_entries() {
+    fn reached_tiles_are_those_with_entries() {
         for tiles in [vec![0], vec![63, 64], vec![70, 190, 130], vec![200], vec![]] {
             let mut bins = Bins::default();
             // Twice, because memory is used again.
@@ -185,8 +169,10 @@ mod tests {
                     bins.push(tile, BinEntry::Point(tile));
                 }
                 bins.sort();
+                let mut reached = [0; 5];
+                bins.note_reached(&mut reached);
                 for tile in 0..320 {
-                    let bit = bins.touched(tile as usize / 64) >> (tile % 64) & 1;
+                    let bit = reached[tile as usize / 64] >> (tile % 64) & 1;
                     assert_eq!(bit == 1, tiles.contains(&tile), "tile {tile} of {tiles:?}");
                 }
             }

@@ -1,32 +1,48 @@
 //! The chunk index: for each tile the chunks that have entries for it.
 //!
 //! A frame can have hundreds of chunks of which hardly any reaches a given tile: asking each chunk
-//! took longer than drawing. Each chunk notes the tiles that it reaches as bits, on its own thread.
-//! Here, where all other threads wait, these rows of bits are only transposed, 64 chunks by 64
-//! tiles at a time.
-
-use super::chunk::Chunk;
+//! took longer than drawing. Each chunk notes the tiles that it reaches as a row of bits, on its
+//! own thread. The rows follow one another in memory, so that here, where all other threads wait,
+//! they are read quickly and only transposed, 64 chunks by 64 tiles at a time.
 
 /// For each tile the chunks that have entries for it, one bit each.
 #[derive(Debug, Default)]
 pub(crate) struct ChunkIndex {
+    /// By chunk, `row_words` words: bit b of word w is tile 64 · w + b.
+    rows: Vec<u64>,
+    row_words: usize,
     /// By tile, `words_each` words: bit b of word w is chunk 64 · w + b.
     bits: Vec<u64>,
     words_each: usize,
 }
 
 impl ChunkIndex {
-    /// Sorts a draw batch's chunks by the tiles of a target.
-    pub(crate) fn build(&mut self, tiles: usize, chunks: &[Chunk]) {
-        self.words_each = chunks.len().div_ceil(64);
+    /// Begins a draw batch, without chunks, in a target of so many tiles.
+    pub(crate) fn begin(&mut self, tiles: usize) {
+        self.rows.clear();
+        self.row_words = tiles.div_ceil(64);
+    }
+
+    /// Adds so many chunks, which reach no tile; gives their rows, in order. A row has a bit for
+    /// each tile, and ends with a whole word.
+    pub(crate) fn add(&mut self, chunks: usize) -> impl Iterator<Item = &mut [u64]> {
+        let before = self.rows.len();
+        self.rows.resize(before + chunks * self.row_words, 0);
+        self.rows[before..].chunks_exact_mut(self.row_words.max(1))
+    }
+
+    /// Sorts the chunks by the tiles that they reach.
+    pub(crate) fn build(&mut self) {
+        let chunks = self.rows.len().checked_div(self.row_words).unwrap_or(0);
+        self.words_each = chunks.div_ceil(64);
         // Every word is written below.
-        self.bits
-            .resize(tiles.next_multiple_of(64) * self.words_each, 0);
-        for (word, chunks) in chunks.chunks(64).enumerate() {
-            for of_tiles in 0..tiles.div_ceil(64) {
+        self.bits.resize(self.row_words * 64 * self.words_each, 0);
+        for (word, rows) in self.rows.chunks(64 * self.row_words.max(1)).enumerate() {
+            for of_tiles in 0..self.row_words {
                 let mut square = [0; 64];
-                for (row, chunk) in square.iter_mut().zip(chunks) {
-                    *row = chunk.bins.touched(of_tiles);
+                let words = rows[of_tiles..].iter().step_by(self.row_words);
+                for (row, reached) in square.iter_mut().zip(words) {
+                    *row = *reached;
                 }
                 if square != [0; 64] {
                     transpose(&mut square);
@@ -107,24 +123,27 @@ fn transpose(rows: &mut [u64; 64]) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::bounds::bins::BinEntry;
 
-    fn chunk(tiles: impl IntoIterator<Item = u32>) -> Chunk {
-        let mut chunk = Chunk::default();
-        for tile in tiles {
-            chunk.bins.push(tile, BinEntry::Point(0));
+    /// An index of chunks that reach these tiles, in groups of some chunks each.
+    fn build(index: &mut ChunkIndex, tiles: usize, chunks: &[Vec<u32>], group: usize) {
+        index.begin(tiles);
+        for chunks in chunks.chunks(group) {
+            for (row, reached) in index.add(chunks.len()).zip(chunks) {
+                for tile in reached {
+                    row[*tile as usize / 64] |= 1 << (tile % 64);
+                }
+            }
         }
-        chunk.bins.sort();
-        chunk
+        index.build();
     }
 
     #[test]
     fn an_index_names_each_tiles_chunks_in_order() {
-        let chunks = [chunk([3, 1]), chunk([]), chunk([0, 1, 1]), chunk([3])];
+        let chunks = [vec![3, 1], vec![], vec![0, 1], vec![3]];
         let mut index = ChunkIndex::default();
-        // Twice, because its memory is used again.
-        for _ in 0..2 {
-            index.build(4, &chunks);
+        // Several times, because its memory is used again.
+        for group in [1, 4, 3] {
+            build(&mut index, 4, &chunks, group);
             let found = [0, 1, 2, 3, 4].map(|tile| index.of_tile(tile).collect::<Vec<_>>());
             assert_eq!(found, [vec![2], vec![0, 2], vec![], vec![0, 3], vec![]]);
             let empty = [0, 1, 2, 3].map(|tile| index.is_empty(tile));
@@ -138,10 +157,10 @@ mod tests {
         let mut index = ChunkIndex::default();
         // The larger one first, so that the memory holds bits of another index.
         for (chunks, tiles) in [(200, 500), (64, 64), (65, 129), (1, 1)] {
-            let all: Vec<Chunk> = (0..chunks)
-                .map(|number| chunk((0..tiles).filter(|tile| reaches(number, *tile))))
+            let all: Vec<Vec<u32>> = (0..chunks)
+                .map(|number| (0..tiles).filter(|tile| reaches(number, *tile)).collect())
                 .collect();
-            index.build(tiles as usize, &all);
+            build(&mut index, tiles as usize, &all, 60);
             for tile in 0..tiles {
                 let expected = (0..chunks).filter(|number| reaches(*number, tile));
                 assert!(index.of_tile(tile).eq(expected), "tile {tile} of {tiles}");
@@ -152,7 +171,7 @@ mod tests {
     #[test]
     fn no_chunks_reach_no_tile() {
         let mut index = ChunkIndex::default();
-        index.build(100, &[]);
+        build(&mut index, 100, &[], 1);
         assert!(index.is_empty(7) && index.of_tile(7).next().is_none());
     }
 

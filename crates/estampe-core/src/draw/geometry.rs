@@ -2,22 +2,24 @@
 
 use super::{Context, Memory};
 use crate::bounds::chunk::Chunk;
-use crate::geometry::chunk::{Neighbours, add_part};
+use crate::geometry::chunk::{ChunkScratch, Neighbours, add_part};
 use crate::geometry::shaded_vertices::VertexRun;
 use crate::geometry::shading::shade;
 use crate::plan::chunk_plan::{ChunkPart, ChunkPlan, VERTEX_CHUNK, part_size};
 use crate::plan::draw_batch::DrawBatch;
 use crate::recycle::recycled;
-use crate::schedule::Executor;
+use crate::schedule::{Executor, lock};
 use crate::statistics::Statistics;
 use std::ops::Range;
-use std::sync::PoisonError;
+use std::sync::Mutex;
 
 /// A chunk, and the primitives that it takes.
 #[derive(Debug)]
 pub(super) struct ChunkJob<'a> {
     chunk: &'a mut Chunk,
     parts: &'a [ChunkPart],
+    /// The tiles that the chunk reaches, one bit each.
+    reached: &'a mut [u64],
 }
 
 /// A job of the first half of geometry.
@@ -89,41 +91,50 @@ impl Context {
         let mut jobs: Vec<ChunkJob<'_>> = recycled(std::mem::take(&mut memory.lists.chunk_jobs));
         let chunks = memory.chunks[before..].iter_mut();
         let chunks = chunks.zip(memory.chunk_plan.chunks());
-        jobs.extend(chunks.map(|(chunk, parts)| ChunkJob { chunk, parts }));
+        let chunks = chunks.zip(memory.chunk_index.add(count));
+        jobs.extend(chunks.map(|((chunk, parts), reached)| ChunkJob {
+            chunk,
+            parts,
+            reached,
+        }));
         let vertices = &memory.vertices;
         let level = self.level;
+        let build = |job: &mut ChunkJob<'_>, scratch: &mut ChunkScratch| {
+            job.chunk.clear();
+            let [triangles, lines] = batch.packets(job.parts);
+            job.chunk.triangles.expect(triangles);
+            job.chunk.lines.expect(lines);
+            let mut joins_last = false;
+            for (at, part) in job.parts.iter().enumerate() {
+                let sub_draw = &batch.sub_draws[part.sub_draw as usize];
+                let next = job.parts.get(at + 1);
+                let joins_next = next.is_some_and(|next| {
+                    batch.joins([part.sub_draw, next.sub_draw], level, samples)
+                });
+                let (plan, vertices) = (batch.plan(sub_draw), vertices.of_span(&sub_draw.span));
+                let vertices = (vertices, batch.listed(sub_draw));
+                let work = sub_draw.run_work(level, plan, vertices, part.primitives);
+                let neighbours = Neighbours {
+                    joins_last,
+                    joins_next,
+                };
+                add_part(part.sub_draw, &work, neighbours, job.chunk, scratch);
+                joins_last = joins_next;
+            }
+            job.chunk.bins.sort();
+            job.chunk.bins.note_reached(job.reached);
+            scratch.statistics += std::mem::take(&mut job.chunk.statistics);
+        };
+        let statistics = Mutex::new(Statistics::default());
         self.executor
-            .for_each(&mut jobs, &memory.chunk_scratch, |job, scratch| {
-                job.chunk.clear();
-                let [triangles, lines] = batch.packets(job.parts);
-                job.chunk.triangles.expect(triangles);
-                job.chunk.lines.expect(lines);
-                let mut joins_last = false;
-                for (at, part) in job.parts.iter().enumerate() {
-                    let sub_draw = &batch.sub_draws[part.sub_draw as usize];
-                    let next = job.parts.get(at + 1);
-                    let joins_next = next.is_some_and(|next| {
-                        batch.joins([part.sub_draw, next.sub_draw], level, samples)
-                    });
-                    let (plan, vertices) = (batch.plan(sub_draw), vertices.of_span(&sub_draw.span));
-                    let vertices = (vertices, batch.listed(sub_draw));
-                    let work = sub_draw.run_work(level, plan, vertices, part.primitives);
-                    let neighbours = Neighbours {
-                        joins_last,
-                        joins_next,
-                    };
-                    add_part(part.sub_draw, &work, neighbours, job.chunk, scratch);
-                    joins_last = joins_next;
+            .for_each_worker(&mut jobs[..], &memory.chunk_scratch, |next, scratch| {
+                while let Some(jobs) = next() {
+                    jobs.iter_mut().for_each(|job| build(job, scratch));
                 }
-                job.chunk.bins.sort();
-                scratch.statistics += std::mem::take(&mut job.chunk.statistics);
+                *lock(&statistics) += std::mem::take(&mut scratch.statistics);
             });
         memory.lists.chunk_jobs = recycled(jobs);
-        let mut statistics = Statistics::default();
-        for worker in &mut memory.chunk_scratch {
-            let worker = worker.get_mut().unwrap_or_else(PoisonError::into_inner);
-            statistics += std::mem::take(&mut worker.statistics);
-        }
+        let statistics = *lock(&statistics);
         (count, statistics)
     }
 }

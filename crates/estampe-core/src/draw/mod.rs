@@ -19,7 +19,7 @@ use crate::profile::JobTimings;
 use crate::raster::MAX_SAMPLES;
 use crate::schedule::{Awake, Executor, ThreadError, ThreadPool};
 use crate::statistics::Statistics;
-use crate::tile_pass::{Clear, TileJob, TileScratch};
+use crate::tile_pass::{Clear, TileScratch};
 use estampe_simd::Level;
 use geometry::{ChunkJob, VertexJob};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -76,7 +76,6 @@ struct Lists {
     chunk_jobs: Vec<ChunkJob<'static>>,
     tile_states: Vec<TileState<'static>>,
     plans: Vec<TilePlan<'static>>,
-    tile_jobs: Vec<TileJob<'static>>,
 }
 
 impl Context {
@@ -215,6 +214,7 @@ impl Context {
         loop {
             let start = Instant::now();
             batch.clear();
+            memory.chunk_index.begin(target.grid().tiles());
             let mut chunks = 0;
             while let Some(group) = cursor.next_group(executor, target, &mut batch) {
                 is_cancelled = pass.control.is_cancelled();

@@ -8,9 +8,11 @@ use crate::plan::draw_batch::DrawBatch;
 use crate::plan::pass_check::RenderPassError;
 use crate::plan::tile_plan::TargetFacts;
 use crate::recycle::recycled;
-use crate::schedule::Executor;
+use crate::schedule::{Executor, lock};
 use crate::statistics::Statistics;
-use crate::tile_pass::{self, Clear, MAX_TARGETS, TilePass, TileScratch, TileWords};
+use crate::tile_pass::{
+    self, Clear, MAX_TARGETS, TileJobs, TilePass, TileScratch, TileStores, TileWords,
+};
 use std::sync::{Mutex, PoisonError};
 
 /// The images that tiles are drawn into.
@@ -42,12 +44,14 @@ impl Context {
             discards,
         } = attachments;
         // First of all: where memory is short, no image is taken to be drawn or resolved.
-        let words = TileWords::of(target, discards);
-        match target.samples() {
-            1 if !self.level.is_scalar() => begin_pass(&mut memory.tiles_1, &words),
-            4 if !self.level.is_scalar() => begin_pass(&mut memory.tiles_4, &words),
-            _ => begin_pass(&mut memory.tiles_many, &words),
-        }?;
+        if discards != Discards::default() {
+            let words = TileWords::of(target, discards);
+            match target.samples() {
+                1 if !self.level.is_scalar() => begin_pass(&mut memory.tiles_1, &words),
+                4 if !self.level.is_scalar() => begin_pass(&mut memory.tiles_4, &words),
+                _ => begin_pass(&mut memory.tiles_many, &words),
+            }?;
+        }
         let mut resolved = [None; MAX_TARGETS];
         for resolve in target.resolves.iter_mut().filter(|_| is_last) {
             resolved[resolve.color] = Some(resolve.into.format());
@@ -57,7 +61,7 @@ impl Context {
             rows.is_done = rows.words_mut().is_some();
         }
         let chunks = &memory.chunks[..chunks];
-        memory.chunk_index.build(target.grid().tiles(), chunks);
+        memory.chunk_index.build();
         let facts = TargetFacts {
             level: self.level,
             samples: target.samples() as usize,
@@ -69,9 +73,9 @@ impl Context {
         batch.tile_states(&facts, &mut states);
         let mut plans = recycled(std::mem::take(&mut memory.lists.plans));
         batch.tile_plans(executor, (&states, &memory.vertices), &mut plans);
-        let mut jobs = recycled(std::mem::take(&mut memory.lists.tile_jobs));
         let (grid, size) = (target.grid(), target.size);
-        let stores = tile_pass::jobs_of(target, is_last && !discards.depth_stencil, &mut jobs);
+        let keeps_depths = is_last && !discards.depth_stencil;
+        let (jobs, stores) = TileJobs::of_target(target, keeps_depths);
         let places: Vec<RowsPlace> = stores.rows.iter().map(|rows| rows.place).collect();
         let pass = TilePass {
             level: self.level,
@@ -87,28 +91,12 @@ impl Context {
             resolved,
             rows: &places,
         };
-        let mut statistics = Statistics::default();
-        match facts.samples {
-            1 if !self.level.is_scalar() => {
-                executor.for_each_ahead(&mut jobs, &memory.tiles_1, |job, next, scratch| {
-                    tile_pass::draw((&pass, &stores), job, next, scratch);
-                });
-                end_pass(&mut memory.tiles_1, &mut statistics);
-            }
-            4 if !self.level.is_scalar() => {
-                executor.for_each_ahead(&mut jobs, &memory.tiles_4, |job, next, scratch| {
-                    tile_pass::draw((&pass, &stores), job, next, scratch);
-                });
-                end_pass(&mut memory.tiles_4, &mut statistics);
-            }
-            _ => {
-                executor.for_each_ahead(&mut jobs, &memory.tiles_many, |job, next, scratch| {
-                    tile_pass::draw((&pass, &stores), job, next, scratch);
-                });
-                end_pass(&mut memory.tiles_many, &mut statistics);
-            }
-        }
-        memory.lists.tile_jobs = recycled(jobs);
+        let pass = (&pass, &stores);
+        let statistics = match facts.samples {
+            1 if !self.level.is_scalar() => run(executor, pass, jobs, &memory.tiles_1),
+            4 if !self.level.is_scalar() => run(executor, pass, jobs, &memory.tiles_4),
+            _ => run(executor, pass, jobs, &memory.tiles_many),
+        };
         memory.lists.plans = recycled(plans);
         memory.lists.tile_states = recycled(states);
         Ok(statistics)
@@ -128,9 +116,20 @@ fn begin_pass<const N: usize>(
     Ok(())
 }
 
-fn end_pass<const N: usize>(scratch: &mut [Mutex<TileScratch<N>>], total: &mut Statistics) {
-    for worker in scratch {
-        let worker = worker.get_mut().unwrap_or_else(PoisonError::into_inner);
-        *total += worker.end_pass();
-    }
+/// Draws all tiles; gives what was counted.
+fn run<const N: usize>(
+    executor: &Executor,
+    pass: (&TilePass<'_>, &TileStores<'_>),
+    jobs: TileJobs<'_>,
+    scratch: &[Mutex<TileScratch<N>>],
+) -> Statistics {
+    let statistics = Mutex::new(Statistics::default());
+    executor.for_each_worker(jobs, scratch, |next, scratch| {
+        while let Some(jobs) = next() {
+            tile_pass::draw(pass, jobs, scratch);
+        }
+        *lock(&statistics) += scratch.end_pass();
+    });
+    let statistics = lock(&statistics);
+    *statistics
 }

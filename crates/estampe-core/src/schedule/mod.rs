@@ -1,10 +1,10 @@
 //! Threads: work is done by the calling thread alone, or by it and helpers.
 //!
-//! Work is a slice of independent items; each worker brings its own scratch. The calling thread is
-//! one of the workers: it begins at once, and the helpers, which are rayon's threads, join it when
-//! they have woken up. (The whole pass inside rayon's pool costs a wake-up before the first item
-//! and another after the last, while the caller sleeps.) Workers take items from the front of what
-//! is left, many at first and one by one in the end, so that they finish together.
+//! Work is a list of independent [`Jobs`]; each worker brings its own scratch. The calling thread
+//! is one of the workers: it begins at once, and the helpers, which are rayon's threads, join it
+//! when they have woken up. (The whole pass inside rayon's pool costs a wake-up before the first
+//! job and another after the last, while the caller sleeps.) Workers take jobs from the front of
+//! what is left, many at first and one by one in the end, so that they finish together.
 
 mod awake;
 
@@ -18,13 +18,42 @@ use std::sync::{Arc, Mutex, PoisonError};
 pub use awake::Awake;
 pub use rayon::{ThreadPool, ThreadPoolBuilder};
 
-/// Runs independent items on the calling thread and its helpers.
+/// Independent jobs, taken off the front some at a time.
+pub(crate) trait Jobs: Send {
+    /// The Rust type of a job, for people to read.
+    fn job_type() -> &'static str;
+
+    /// The number of jobs that are left.
+    fn left(&self) -> usize;
+
+    /// Takes the first jobs off, or all that are left.
+    fn take_first(&mut self, count: usize) -> Self;
+}
+
+impl<T: Send> Jobs for &mut [T] {
+    fn job_type() -> &'static str {
+        std::any::type_name::<T>()
+    }
+
+    fn left(&self) -> usize {
+        self.len()
+    }
+
+    fn take_first(&mut self, count: usize) -> Self {
+        let all = std::mem::take(self);
+        let (first, others) = all.split_at_mut(count.min(all.len()));
+        *self = others;
+        first
+    }
+}
+
+/// Runs independent jobs on the calling thread and its helpers.
 #[derive(Debug)]
 pub(crate) struct Executor {
     helpers: Option<Arc<ThreadPool>>,
     /// Keeps them awake during a pass, if each has a processor and no other work.
     watch: Option<Arc<Watch>>,
-    /// Measures each item, if the context is made for profiling.
+    /// Measures each job, if the context is made for profiling.
     profiler: Option<Profiler>,
     /// The number of threads for which work is divided, the caller included.
     threads: usize,
@@ -40,7 +69,7 @@ pub struct ThreadError {
     pub reason: String,
 }
 
-/// The least number of times that each worker takes items, if there are enough. A smaller
+/// The least number of times that each worker takes jobs, if there are enough. A smaller
 /// number makes workers wait less for each other, and the last one end later.
 const TURNS: usize = 4;
 
@@ -85,7 +114,7 @@ impl Executor {
         }
     }
 
-    /// An executor of the calling thread alone that measures what each item takes. Work is divided
+    /// An executor of the calling thread alone that measures what each job takes. Work is divided
     /// as for this many threads.
     pub(crate) fn profiling(threads: usize) -> Self {
         Self {
@@ -104,80 +133,76 @@ impl Executor {
         }
     }
 
-    /// Returns the time of each item since the last call, and clears it; empty without profiling.
+    /// Returns the time of each job since the last call, and clears it; empty without profiling.
     pub(crate) fn take_timings(&self) -> Vec<JobTimings> {
         let profiler = self.profiler.as_ref();
         profiler.map(Profiler::take).unwrap_or_default()
     }
 
-    /// Returns the number of items that run at once, or would if they were not measured.
+    /// Returns the number of jobs that run at once, or would if they were not measured.
     pub(crate) fn threads(&self) -> usize {
         self.threads
     }
 
-    /// Runs `work` for every item, each with one worker's scratch.
+    /// Runs `work` for every job, each with one worker's scratch.
     pub(crate) fn for_each<T: Send, C: Send>(
         &self,
-        items: &mut [T],
+        jobs: &mut [T],
         scratch: &[Mutex<C>],
         work: impl Fn(&mut T, &mut C) + Sync,
     ) {
-        self.share(items, |worker, next| {
-            let mut mine = lock(&scratch[worker]);
-            while let Some(items) = next() {
-                items.iter_mut().for_each(|item| work(item, &mut mine));
+        self.for_each_worker(jobs, scratch, |next, mine| {
+            while let Some(jobs) = next() {
+                jobs.iter_mut().for_each(|job| work(job, mine));
             }
         });
     }
 
-    /// [`Executor::for_each`] that also gives the item that the worker takes next, if it knows.
-    pub(crate) fn for_each_ahead<T: Send + Sync, C: Send>(
+    /// Runs `work` for every job.
+    pub(crate) fn for_each_alone<T: Send>(&self, jobs: &mut [T], work: impl Fn(&mut T) + Sync) {
+        self.share(jobs, |_, next| {
+            while let Some(jobs) = next() {
+                jobs.iter_mut().for_each(&work);
+            }
+        });
+    }
+
+    /// Runs `work` once for each worker, with what gives it jobs and with its scratch.
+    pub(crate) fn for_each_worker<J: Jobs, C: Send>(
         &self,
-        items: &mut [T],
+        jobs: J,
         scratch: &[Mutex<C>],
-        work: impl Fn(&mut T, Option<&T>, &mut C) + Sync,
+        work: impl Fn(&mut dyn FnMut() -> Option<J>, &mut C) + Sync,
     ) {
-        self.share(items, |worker, next| {
-            let mut mine = lock(&scratch[worker]);
-            while let Some(mut items) = next() {
-                while let Some((item, others)) = items.split_first_mut() {
-                    work(item, others.first(), &mut mine);
-                    items = others;
-                }
-            }
-        });
+        self.share(jobs, |worker, next| work(next, &mut lock(&scratch[worker])));
     }
 
-    /// Runs `work` for every item.
-    pub(crate) fn for_each_alone<T: Send>(&self, items: &mut [T], work: impl Fn(&mut T) + Sync) {
-        self.share(items, |_, next| {
-            while let Some(items) = next() {
-                items.iter_mut().for_each(&work);
-            }
-        });
-    }
-
-    /// Runs `work` once for each worker, with its number and what gives it items.
-    fn share<'i, T: Send>(
+    /// Runs `work` once for each worker, with its number and what gives it jobs.
+    fn share<J: Jobs>(
         &self,
-        items: &'i mut [T],
-        work: impl Fn(usize, &mut dyn FnMut() -> Option<&'i mut [T]>) + Sync,
+        mut jobs: J,
+        work: impl Fn(usize, &mut dyn FnMut() -> Option<J>) + Sync,
     ) {
-        let workers = self.threads().min(items.len());
+        let workers = self.threads().min(jobs.left());
         let Some(pool) = self.helpers.as_ref().filter(|_| workers > 1) else {
             if let Some(profiler) = &self.profiler {
-                profiler.hand_out(items, |next| work(0, next));
+                let kind = (J::job_type(), jobs.left());
+                profiler.hand_out(kind, || take_some(&mut jobs, 1), |next| work(0, next));
                 return;
             }
-            let mut all = Some(items);
-            work(0, &mut || all.take());
+            work(0, &mut || take_some(&mut jobs, usize::MAX));
             return;
         };
-        let left = Mutex::new(items);
+        let left = Mutex::new(jobs);
         let running = AtomicUsize::new(workers);
         let watch = self.watch.as_ref();
         let run = |worker: usize| {
-            work(worker, &mut || take_some(&left, workers));
+            work(worker, &mut || {
+                let mut left = lock(&left);
+                let turns = workers * TURNS;
+                let count = left.left().div_ceil(turns);
+                take_some(&mut *left, count)
+            });
             running.fetch_sub(1, Ordering::Release);
             if let Some(watch) = watch.filter(|_| worker > 0) {
                 Watch::wait_for_more(watch);
@@ -192,6 +217,11 @@ impl Executor {
             wait_a_little(&running);
         });
     }
+}
+
+/// Takes the first jobs off, or all that are left; `None` if there are none.
+fn take_some<J: Jobs>(jobs: &mut J, count: usize) -> Option<J> {
+    (jobs.left() > 0).then(|| jobs.take_first(count))
 }
 
 /// Calls the helpers that are the workers of a range, as a tree: who calls the first worker of the
@@ -215,7 +245,7 @@ fn call_helpers<'scope>(
     }
 }
 
-/// Waits for the helpers' last items without going to sleep, because to be woken again takes longer
+/// Waits for the helpers' last jobs without going to sleep, because to be woken again takes longer
 /// than most of these. Beyond the limit, or after a helper's panic, the caller blocks in rayon's
 /// scope.
 fn wait_a_little(running: &AtomicUsize) {
@@ -239,19 +269,9 @@ fn pause() {
     (0..PAUSES).for_each(|_| std::hint::spin_loop());
 }
 
-/// Takes items off the front of what is left.
-fn take_some<'i, T>(left: &Mutex<&'i mut [T]>, workers: usize) -> Option<&'i mut [T]> {
-    let mut left = lock(left);
-    let all = std::mem::take(&mut *left);
-    let count = all.len().div_ceil(workers * TURNS).max(1);
-    let (first, others) = all.split_at_mut_checked(count)?;
-    *left = others;
-    Some(first)
-}
-
 /// Locks what only holds plain data: after a panic elsewhere it is as good as before. A worker's
 /// scratch is only ever locked by that worker, so that it never waits.
-fn lock<C>(scratch: &Mutex<C>) -> std::sync::MutexGuard<'_, C> {
+pub(crate) fn lock<C>(scratch: &Mutex<C>) -> std::sync::MutexGuard<'_, C> {
     scratch.lock().unwrap_or_else(PoisonError::into_inner)
 }
 

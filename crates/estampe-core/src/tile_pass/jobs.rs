@@ -1,52 +1,156 @@
-//! The jobs of a pass: a target cut into the slices of its tiles.
+//! The jobs of a pass: a target, off whose front workers take tiles.
+//!
+//! Tiles follow one another in memory, so the tiles that are left are slices of the attachments,
+//! and so are those that a worker takes. A list of all tiles would be made by one thread while all
+//! others wait.
 
-use super::{TileJob, TileStores};
+use super::next_tile::NextTile;
+use super::{MAX_TARGETS, TileJob, TileStores};
 use crate::attachment::{RenderTarget, StoredRows};
 use crate::layout::texel_words;
+use crate::schedule::Jobs;
+use estampe_simd::LANES;
+use std::ops::Range;
 
-/// The tiles of a target, and what all of them store to. `keeps_depths` says that they are drawn
-/// last, and that their depths are kept.
-pub(crate) fn jobs_of<'a>(
-    target: &'a mut RenderTarget,
-    keeps_depths: bool,
-    jobs: &mut Vec<TileJob<'a>>,
-) -> TileStores<'a> {
-    let mut stores = TileStores::default();
-    let grid = target.grid();
-    let elements = grid.tile_pixels() * target.samples() as usize;
-    jobs.extend((0u32..).take(grid.tiles()).map(|tile| TileJob {
-        tile,
-        ..TileJob::default()
-    }));
-    for (index, color) in target.colors.iter_mut().enumerate() {
-        let elements = elements * texel_words(color.format());
-        for (job, slice) in jobs.iter_mut().zip(color.words.chunks_exact_mut(elements)) {
-            job.colors[index] = slice.as_chunks_mut().0;
+/// Tiles that follow one another, and their shares of the attachments.
+#[derive(Debug, Default)]
+pub(crate) struct TileJobs<'a> {
+    tiles: Range<u32>,
+    colors: [TilePackets<'a, u32>; MAX_TARGETS],
+    depth: TilePackets<'a, f32>,
+    stencil: TilePackets<'a, u8>,
+    /// The images that colours are resolved into.
+    resolved: [TilePackets<'a, u32>; MAX_TARGETS],
+}
+
+/// An attachment's share of tiles that follow one another, in packets of sixteen elements. Nothing
+/// where there is no such attachment, or no memory of it.
+#[derive(Debug, Default)]
+struct TilePackets<'a, T> {
+    packets: &'a mut [[T; LANES]],
+    /// Packets of a tile.
+    of_tile: usize,
+}
+
+impl<'a, T> TilePackets<'a, T> {
+    /// An attachment of so many elements a tile.
+    fn new(elements: &'a mut [T], of_tile: usize) -> Self {
+        Self {
+            packets: elements.as_chunks_mut().0,
+            of_tile: of_tile / LANES,
         }
     }
-    for resolve in &mut target.resolves {
-        let elements = grid.tile_pixels() * texel_words(resolve.into.format());
-        let slices = resolve.into.words.chunks_exact_mut(elements);
-        for (job, slice) in jobs.iter_mut().zip(slices) {
-            job.resolved[resolve.color] = slice;
+
+    /// Takes the share of the first tiles off.
+    #[inline]
+    fn take_first(&mut self, tiles: usize) -> Self {
+        let packets = std::mem::take(&mut self.packets);
+        let count = (tiles * self.of_tile).min(packets.len());
+        let (first, others) = packets.split_at_mut(count);
+        self.packets = others;
+        Self {
+            packets: first,
+            of_tile: self.of_tile,
         }
     }
-    for rows in target.rows.iter_mut().filter(|rows| rows.is_done) {
-        let color = (rows.color, target.color_formats[rows.color]);
-        let words = rows.words_mut();
-        let image = words.map(|words| StoredRows::of_image(color, target.size, words));
-        stores.rows.extend(image);
+
+    /// The share of the first tile.
+    fn first(&self) -> &[[T; LANES]] {
+        &self.packets[..self.of_tile.min(self.packets.len())]
     }
-    let Some(texels) = &mut target.depth_stencil else {
-        return stores;
-    };
-    let (depth, stencil, bounds) = texels.tiles_mut(keeps_depths);
-    for (job, slice) in jobs.iter_mut().zip(stencil.chunks_exact_mut(elements)) {
-        job.stencil = slice.as_chunks_mut().0;
+}
+
+impl<'a> TileJobs<'a> {
+    /// All tiles of a target, and what they store to. `keeps_depths` says that they are drawn last,
+    /// and that their depths are kept.
+    pub(crate) fn of_target(
+        target: &'a mut RenderTarget,
+        keeps_depths: bool,
+    ) -> (Self, TileStores<'a>) {
+        let mut stores = TileStores::default();
+        let grid = target.grid();
+        let elements = grid.tile_pixels() * target.samples() as usize;
+        let mut jobs = Self {
+            tiles: 0..u32::try_from(grid.tiles()).unwrap_or(u32::MAX),
+            ..Self::default()
+        };
+        for (packets, color) in jobs.colors.iter_mut().zip(&mut target.colors) {
+            let words = texel_words(color.format());
+            *packets = TilePackets::new(&mut color.words, elements * words);
+        }
+        for resolve in &mut target.resolves {
+            let words = texel_words(resolve.into.format());
+            let pixels = grid.tile_pixels() * words;
+            jobs.resolved[resolve.color] = TilePackets::new(&mut resolve.into.words, pixels);
+        }
+        for rows in target.rows.iter_mut().filter(|rows| rows.is_done) {
+            let color = (rows.color, target.color_formats[rows.color]);
+            let words = rows.words_mut();
+            let image = words.map(|words| StoredRows::of_image(color, target.size, words));
+            stores.rows.extend(image);
+        }
+        if let Some(texels) = &mut target.depth_stencil {
+            let (depth, stencil, bounds) = texels.tiles_mut(keeps_depths);
+            jobs.depth = TilePackets::new(depth, elements);
+            jobs.stencil = TilePackets::new(stencil, elements);
+            stores.bounds = bounds;
+        }
+        (jobs, stores)
     }
-    for (job, slice) in jobs.iter_mut().zip(depth.chunks_exact_mut(elements)) {
-        job.depth = slice.as_chunks_mut().0;
+
+    /// Takes the first tile off.
+    pub(super) fn take_tile(&mut self) -> Option<TileJob<'a>> {
+        (!self.tiles.is_empty()).then(|| {
+            let first = self.take_first(1);
+            TileJob {
+                tile: first.tiles.start,
+                colors: first.colors.map(|color| color.packets),
+                depth: first.depth.packets,
+                stencil: first.stencil.packets,
+                resolved: first.resolved.map(|image| image.packets.as_flattened_mut()),
+                next: NextTile::default(),
+            }
+        })
     }
-    stores.bounds = bounds;
-    stores
+
+    /// The number of the first tile.
+    pub(super) fn first_tile(&self) -> Option<u32> {
+        (!self.tiles.is_empty()).then_some(self.tiles.start)
+    }
+
+    /// The first tile's share of the first colour attachment.
+    pub(super) fn first_colors(&self) -> &[[u32; LANES]] {
+        self.colors[0].first()
+    }
+
+    /// The first tile's depths.
+    pub(super) fn first_depths(&self) -> &[[f32; LANES]] {
+        self.depth.first()
+    }
+}
+
+impl Jobs for TileJobs<'_> {
+    fn job_type() -> &'static str {
+        std::any::type_name::<TileJob<'_>>()
+    }
+
+    fn left(&self) -> usize {
+        self.tiles.len()
+    }
+
+    fn take_first(&mut self, count: usize) -> Self {
+        let tiles = count.min(self.tiles.len());
+        let start = self.tiles.start;
+        self.tiles.start += u32::try_from(tiles).unwrap_or(u32::MAX);
+        Self {
+            tiles: start..self.tiles.start,
+            colors: self.colors.each_mut().map(|color| color.take_first(tiles)),
+            depth: self.depth.take_first(tiles),
+            stencil: self.stencil.take_first(tiles),
+            resolved: self
+                .resolved
+                .each_mut()
+                .map(|image| image.take_first(tiles)),
+        }
+    }
 }

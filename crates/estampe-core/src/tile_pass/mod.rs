@@ -16,7 +16,7 @@ mod visibility;
 mod worker_tile;
 
 pub(crate) use clear::Clear;
-pub(crate) use jobs::jobs_of;
+pub(crate) use jobs::TileJobs;
 pub(crate) use worker_tile::TileWords;
 
 use crate::attachment::resolve::ResolveJob;
@@ -117,20 +117,6 @@ pub(crate) struct TileJob<'a> {
     pub(crate) next: NextTile<'a>,
 }
 
-impl TileJob<'_> {
-    /// The same job for a while, with the tile that is drawn next.
-    fn with_next<'b>(&'b mut self, next: NextTile<'b>) -> TileJob<'b> {
-        TileJob {
-            tile: self.tile,
-            colors: self.colors.each_mut().map(|color| &mut **color),
-            depth: self.depth,
-            stencil: self.stencil,
-            resolved: self.resolved.each_mut().map(|image| &mut **image),
-            next,
-        }
-    }
-}
-
 /// Memory of one worker, for `N` samples.
 #[derive(Debug, Default)]
 pub(crate) struct TileScratch<const N: usize> {
@@ -149,20 +135,19 @@ pub(crate) struct TileScratch<const N: usize> {
     statistics: Statistics,
 }
 
-/// Draws a tile; `next` is the one that the worker draws then.
+/// Draws tiles that follow one another.
 pub(crate) fn draw<const N: usize>(
     (pass, stores): (&TilePass<'_>, &TileStores<'_>),
-    job: &mut TileJob<'_>,
-    next: Option<&TileJob<'_>>,
+    mut jobs: TileJobs<'_>,
     scratch: &mut TileScratch<N>,
 ) {
-    // While nothing is drawn, nothing is prefetched.
-    if pass.is_empty(job.tile) {
-        return draw_in_place((pass, stores), job, scratch);
+    while let Some(mut job) = jobs.take_tile() {
+        // While nothing is drawn, nothing is prefetched.
+        if !pass.is_empty(job.tile) {
+            job.next = NextTile::of(pass, &jobs);
+        }
+        draw_in_place((pass, stores), &mut job, scratch);
     }
-    let next = next.map(|next| NextTile::new(pass, next));
-    let mut job = job.with_next(next.unwrap_or_default());
-    draw_in_place((pass, stores), &mut job, scratch);
 }
 
 /// Draws a tile, in the worker's memory in place of the attachments that the pass discards.

@@ -4,7 +4,7 @@
 //! lies beyond the caches: stores that miss them wait for one another. So a few lines of the next
 //! tile are prefetched for each step of the work on the tile at hand.
 
-use super::{TileJob, TilePass};
+use super::{TileJobs, TilePass};
 use crate::attachment::{RowsPlace, TileLines};
 use estampe_simd::{LANES, Lanes, outline};
 
@@ -17,22 +17,25 @@ pub(crate) struct NextTile<'a> {
 }
 
 impl<'a> NextTile<'a> {
-    /// The tile of a job: its first colours and its depths, but for those that the pass keeps in a
-    /// worker's memory.
-    pub(super) fn new(pass: &TilePass<'a>, job: &'a TileJob<'_>) -> Self {
+    /// The first of the tiles that are left: its first colours and its depths, but for those that
+    /// the pass keeps in a worker's memory.
+    pub(super) fn of(pass: &TilePass<'a>, left: &'a TileJobs<'_>) -> Self {
+        let Some(tile) = left.first_tile() else {
+            return Self::default();
+        };
         let discards = pass.discards;
         Self {
             color: if discards.colors & 1 == 0 {
-                &*job.colors[0]
+                left.first_colors()
             } else {
                 &[]
             },
             depth: if discards.depth_stencil {
                 &[]
             } else {
-                &*job.depth
+                left.first_depths()
             },
-            rows: RowLines::new(pass.rows, pass.grid.tile_origin(job.tile)),
+            rows: RowLines::new(pass.rows, pass.grid.tile_origin(tile)),
         }
     }
 
