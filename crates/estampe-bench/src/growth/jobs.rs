@@ -29,7 +29,7 @@ impl JobKind {
     fn of(job_type: &str) -> Self {
         let name = job_type.split('<').next().unwrap_or_default();
         match name.rsplit("::").next().unwrap_or_default() {
-            "VertexJob" => Self::Vertices,
+            "VertexJobs" => Self::Vertices,
             "ChunkJob" => Self::Chunks,
             "TileJob" => Self::Tiles,
             _ => Self::Others,

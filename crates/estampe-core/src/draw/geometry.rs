@@ -1,11 +1,11 @@
 //! The geometry side of a pass: vertices are shaded, then primitives become chunks.
 
+use super::vertex_runs::{VertexJobs, VertexRuns};
 use super::{Context, Memory};
 use crate::bounds::chunk::Chunk;
 use crate::geometry::chunk::{ChunkScratch, Neighbours, add_part};
-use crate::geometry::shaded_vertices::VertexRun;
 use crate::geometry::shading::shade;
-use crate::plan::chunk_plan::{ChunkPart, ChunkPlan, VERTEX_CHUNK, part_size};
+use crate::plan::chunk_plan::{ChunkPart, VERTEX_CHUNK, part_size};
 use crate::plan::draw_batch::DrawBatch;
 use crate::recycle::recycled;
 use crate::schedule::{Executor, lock};
@@ -22,15 +22,6 @@ pub(super) struct ChunkJob<'a> {
     reached: &'a mut [u64],
 }
 
-/// A job of the first half of geometry.
-#[derive(Debug)]
-pub(super) enum VertexJob<'a> {
-    /// Divides the primitives of a group among chunks.
-    Plan(&'a mut ChunkPlan),
-    /// Shades vertices.
-    Shade(VertexRun<'a>),
-}
-
 /// Sub-draws of a group beyond which one thread divides their primitives while others shade
 /// vertices: of fewer this takes no longer than to wake a thread.
 const MANY_SUB_DRAWS: usize = 512;
@@ -45,33 +36,39 @@ impl Context {
         memory: &mut Memory,
     ) {
         memory.vertices.resize_for(&batch.group);
-        let mut jobs = recycled(std::mem::take(&mut memory.lists.vertex_jobs));
         // Groups grow with the threads.
         let threads = self.executor.threads();
-        if executor.threads() > 1 && group.len() > MANY_SUB_DRAWS {
-            jobs.push(VertexJob::Plan(&mut memory.chunk_plan));
-        } else {
+        let is_job = executor.threads() > 1 && group.len() > MANY_SUB_DRAWS;
+        if !is_job {
             memory.chunk_plan.build((batch, group.clone()), threads);
         }
-        let spans = batch.spans(group.clone());
         let size = part_size(batch.group.count, executor.threads(), VERTEX_CHUNK);
-        let spans = (&batch.group, spans);
-        memory
-            .vertices
-            .split(spans, size, |run| jobs.push(VertexJob::Shade(run)));
-        executor.for_each(&mut jobs, &memory.shading, |job, scratch| match job {
-            VertexJob::Plan(plan) => plan.build((batch, group.clone()), threads),
-            VertexJob::Shade(run) => {
-                let sub_draws = &batch.sub_draws[group.clone()][run.sub_draws.clone()];
-                for sub_draw in sub_draws {
-                    let source = sub_draw.vertex_source(batch.listed(sub_draw));
-                    let transform = &batch.plan(sub_draw).transform;
-                    let mut out = run.out.take(&sub_draw.span);
-                    shade(self.level, &source, transform, run.first, &mut out, scratch);
+        let out = memory.vertices.of_group_mut(&batch.group);
+        let sub_draws = (&batch.group, &batch.sub_draws[group.clone()]);
+        let jobs = VertexJobs {
+            plan: is_job.then_some(&mut memory.chunk_plan),
+            runs: VertexRuns::new(sub_draws, size, out),
+        };
+        executor.for_each_worker(jobs, &memory.shading, |next, scratch| {
+            while let Some(VertexJobs { plan, runs }) = next() {
+                if let Some(plan) = plan {
+                    plan.build((batch, group.clone()), threads);
+                }
+                for mut part in runs.parts() {
+                    let source = part.sub_draw.vertex_source(batch.listed(part.sub_draw));
+                    let transform = &batch.plan(part.sub_draw).transform;
+                    let first = part.first;
+                    shade(
+                        self.level,
+                        &source,
+                        transform,
+                        first,
+                        &mut part.out,
+                        scratch,
+                    );
                 }
             }
         });
-        memory.lists.vertex_jobs = recycled(jobs);
     }
 
     /// Geometry, second half: primitives are assembled, culled, clipped, set up and binned, in

@@ -2,6 +2,7 @@
 
 mod geometry;
 mod tiles;
+mod vertex_runs;
 
 use crate::attachment::RenderTarget;
 use crate::bounds::chunk::Chunk;
@@ -21,7 +22,7 @@ use crate::schedule::{Awake, Executor, ThreadError, ThreadPool};
 use crate::statistics::Statistics;
 use crate::tile_pass::{Clear, TileScratch};
 use estampe_simd::Level;
-use geometry::{ChunkJob, VertexJob};
+use geometry::ChunkJob;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Instant;
 use tiles::TileAttachments;
@@ -72,7 +73,6 @@ struct Lists {
     batch: DrawBatch<'static>,
     /// Batches that threads cut parts of many draws into.
     parts: Vec<DrawBatch<'static>>,
-    vertex_jobs: Vec<VertexJob<'static>>,
     chunk_jobs: Vec<ChunkJob<'static>>,
     tile_states: Vec<TileState<'static>>,
     plans: Vec<TilePlan<'static>>,

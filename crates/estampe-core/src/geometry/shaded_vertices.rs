@@ -8,7 +8,6 @@
 
 use crate::bounds::primitives::{VertexRef, WindowVertex};
 use estampe_simd::advise_huge_pages;
-use std::ops::Range;
 
 /// A window x that says "this vertex must be clipped"; no snapped coordinate reaches it.
 pub(crate) const NEEDS_CLIPPING: i32 = i32::MIN;
@@ -55,6 +54,8 @@ pub(crate) struct GroupVertices {
     pub(crate) count: usize,
     /// Scalars of all varyings.
     varyings: usize,
+    /// Scalars of a vertex's varyings, at most.
+    most_scalars: usize,
     keeps_clip_positions: bool,
     has_point_sizes: bool,
 }
@@ -78,6 +79,7 @@ impl GroupVertices {
         };
         self.count += span.count;
         self.varyings += span.count * span.varying_scalars;
+        self.most_scalars = self.most_scalars.max(span.varying_scalars);
         self.keeps_clip_positions |= span.keeps_clip_positions;
         self.has_point_sizes |= span.has_point_sizes;
         placed
@@ -87,8 +89,14 @@ impl GroupVertices {
     pub(crate) fn append(&mut self, other: &Self) {
         self.count += other.count;
         self.varyings += other.varyings;
+        self.most_scalars = self.most_scalars.max(other.most_scalars);
         self.keeps_clip_positions |= other.keeps_clip_positions;
         self.has_point_sizes |= other.has_point_sizes;
+    }
+
+    /// Scalars of each vertex's varyings, if all have as many.
+    pub(crate) fn varying_scalars(&self) -> Option<usize> {
+        (self.varyings == self.count * self.most_scalars).then_some(self.most_scalars)
     }
 
     /// The place behind these vertices of a span that is in another batch's first group.
@@ -116,7 +124,7 @@ pub(crate) struct ShadedSlice<'a> {
 impl<'a> ShadedSlice<'a> {
     /// Takes the first vertices off with all that is kept of any of their group, of which there are
     /// so many scalars of varyings.
-    fn take_all(&mut self, count: usize, varyings: usize) -> Self {
+    pub(crate) fn take_first(&mut self, count: usize, varyings: usize) -> Self {
         let kept = |list: &[_]| if list.is_empty() { 0 } else { count };
         let clip = kept(self.clip);
         let sizes = if self.point_size.is_empty() { 0 } else { count };
@@ -128,10 +136,9 @@ impl<'a> ShadedSlice<'a> {
         }
     }
 
-    /// Takes the vertices of a span off, or those of its part that are all there are.
-    pub(crate) fn take(&mut self, span: &VertexSpan) -> Self {
-        let count = span.count.min(self.window.len());
-        let mut taken = self.take_all(count, count * span.varying_scalars);
+    /// Takes the first vertices off, which are those of a span, with what is kept of them.
+    pub(crate) fn take(&mut self, span: &VertexSpan, count: usize) -> Self {
+        let mut taken = self.take_first(count, count * span.varying_scalars);
         if !span.keeps_clip_positions {
             taken.clip = &mut [];
         }
@@ -141,19 +148,6 @@ impl<'a> ShadedSlice<'a> {
         taken
     }
 }
-
-/// A run of vertices for one worker: a part of a sub-draw's, or those of several.
-#[derive(Debug)]
-pub(crate) struct VertexRun<'a> {
-    /// The sub-draws' numbers in the group.
-    pub(crate) sub_draws: Range<usize>,
-    /// The first vertex, counted in the first sub-draw.
-    pub(crate) first: u32,
-    pub(crate) out: ShadedSlice<'a>,
-}
-
-/// Vertices of several sub-draws that one worker shades at a time, at most.
-const TOGETHER: usize = 512;
 
 /// The shaded vertices of one sub-draw.
 #[derive(Debug, Clone, Copy)]
@@ -185,65 +179,23 @@ impl ShadedVertices {
         grow(&mut self.point_size, kept(group.has_point_sizes), 1.0);
     }
 
-    /// Cuts the vertices of the spans, which are all of a group, into runs: a large span into parts
-    /// of at most `size`, small ones together.
-    pub(crate) fn split<'a, 's>(
-        &'a mut self,
-        (group, spans): (&GroupVertices, impl Iterator<Item = &'s VertexSpan>),
-        size: usize,
-        mut add: impl FnMut(VertexRun<'a>),
-    ) {
-        let mut rest = ShadedSlice {
+    /// The memory of a group's vertices, for which there [is room](Self::resize_for).
+    pub(crate) fn of_group_mut(&mut self, group: &GroupVertices) -> ShadedSlice<'_> {
+        let varyings = self.varyings.get_mut(group.group);
+        let mut all = ShadedSlice {
             window: &mut self.window,
             clip: &mut self.clip,
-            varyings: self
-                .varyings
-                .get_mut(group.group)
-                .map_or(&mut [], |list| list),
+            varyings: varyings.map_or(&mut [], |list| list),
             point_size: &mut self.point_size,
         };
         // Lists that are kept for no span may be of any length.
         if !group.keeps_clip_positions {
-            rest.clip = &mut [];
+            all.clip = &mut [];
         }
         if !group.has_point_sizes {
-            rest.point_size = &mut [];
+            all.point_size = &mut [];
         }
-        let together = size.min(TOGETHER);
-        let (mut first, mut next) = (0, 0);
-        // Vertices and scalars of varyings of the spans that wait to be one run.
-        let mut waiting = [0, 0];
-        let mut run = |sub_draws: Range<usize>, first: usize, [count, varyings]: [usize; 2]| {
-            debug_assert!(
-                u32::try_from(first).is_ok(),
-                "a sub-draw of {first} vertices"
-            );
-            add(VertexRun {
-                sub_draws,
-                first: u32::try_from(first).unwrap_or(u32::MAX),
-                out: rest.take_all(count, varyings),
-            });
-        };
-        for span in spans {
-            if waiting[0] > 0 && waiting[0] + span.count > together {
-                run(first..next, 0, std::mem::take(&mut waiting));
-                first = next;
-            }
-            next += 1;
-            if span.count <= together {
-                waiting[0] += span.count;
-                waiting[1] += span.count * span.varying_scalars;
-                continue;
-            }
-            for from in (0..span.count).step_by(size) {
-                let count = size.min(span.count - from);
-                run(first..next, from, [count, count * span.varying_scalars]);
-            }
-            first = next;
-        }
-        if waiting[0] > 0 {
-            run(first..next, 0, waiting);
-        }
+        all
     }
 
     /// The vertices of one sub-draw.
@@ -340,12 +292,11 @@ mod tests {
                 ..VertexSpan::default()
             });
             vertices.resize_for(&group);
-            let mut runs = Vec::new();
-            vertices.split((&group, [span].iter()), 100, |run| runs.push(run));
-            assert_eq!(runs[0].out.window.len(), count);
+            let all = vertices.of_group_mut(&group).take(&span, count);
+            assert_eq!(all.window.len(), count);
             let kept = if keeps_clip_positions { count } else { 0 };
-            assert_eq!(runs[0].out.clip.len(), kept);
-            assert_eq!(runs[0].out.point_size.len(), kept);
+            assert_eq!(all.clip.len(), kept);
+            assert_eq!(all.point_size.len(), kept);
         }
     }
 
@@ -362,9 +313,8 @@ mod tests {
             });
             assert_eq!(span.group, number);
             vertices.resize_for(&group);
-            let mut runs = Vec::new();
-            vertices.split((&group, [span].iter()), count, |run| runs.push(run));
-            runs[0].out.varyings.fill(number as f32);
+            let all = vertices.of_group_mut(&group).take(&span, count);
+            all.varyings.fill(number as f32);
             spans.push((number, span));
             group = group.following();
         }
@@ -372,66 +322,6 @@ mod tests {
             for vertex in 0..u32::try_from(span.count).unwrap() {
                 let varyings = vertices.of_span(&span);
                 assert_eq!(varyings.varyings_of(vertex), [group as f32; 2]);
-            }
-        }
-    }
-
-    #[test]
-    fn runs_and_spans_share_the_same_places() {
-        let mut vertices = ShadedVertices::default();
-        let mut group = GroupVertices::default();
-        let kinds = [(5, 2, false), (3, 0, true), (4, 3, true)];
-        let spans = kinds.map(|(count, varying_scalars, has_point_sizes)| {
-            group.place(VertexSpan {
-                count,
-                varying_scalars,
-                keeps_clip_positions: has_point_sizes,
-                has_point_sizes,
-                ..VertexSpan::default()
-            })
-        });
-        // Several times, because memory is used again.
-        let by_two = [(0, 0), (0, 2), (0, 4), (1, 0), (1, 2), (2, 0), (2, 2)];
-        let cases: [(usize, &[(usize, u32)]); 4] = [
-            (2, &by_two),
-            (4, &[(0, 0), (0, 4), (1, 0), (2, 0)]),
-            (7, &[(0, 0), (1, 0)]),
-            (100, &[(0, 0)]),
-        ];
-        for (turn, (size, expected)) in (0..).zip(cases) {
-            vertices.resize_for(&group);
-            let mut runs = Vec::new();
-            vertices.split((&group, spans.iter()), size, |run| runs.push(run));
-            let pieces = runs.iter().map(|run| (run.sub_draws.start, run.first));
-            assert!(pieces.eq(expected.iter().copied()), "{runs:?}");
-            for run in &mut runs {
-                for number in run.sub_draws.clone() {
-                    let out = run.out.take(&spans[number]);
-                    // The third vertex of each lies in its part that begins with the third one, or
-                    // in its first part.
-                    let part = if run.first > 2 { 9 } else { 0 };
-                    let stamp = u32::try_from(number).unwrap() * 100 + part + turn;
-                    out.window.fill([stamp; 4]);
-                    out.clip.fill([stamp; 4]);
-                    out.varyings.fill(stamp as f32);
-                    out.point_size.fill(stamp as f32);
-                }
-                assert!(run.out.window.is_empty() && run.out.varyings.is_empty());
-            }
-            for (number, span) in (0..).zip(&spans) {
-                let found = vertices.of_span(span);
-                let stamp = number * 100 + turn;
-                assert_eq!(found.window[2], [stamp; 4]);
-                assert_eq!(found.window.len(), span.count);
-                let varyings = vec![stamp as f32; span.varying_scalars];
-                assert_eq!(found.varyings_of(2), varyings);
-                let size = if span.has_point_sizes {
-                    stamp as f32
-                } else {
-                    1.0
-                };
-                assert_eq!(found.point_size(2), size);
-                assert_eq!(found.clip_position(2).is_some(), span.keeps_clip_positions);
             }
         }
     }

@@ -14,7 +14,6 @@ use crate::recycle::recycled;
 use crate::schedule::Executor;
 use crate::tile_path::{PathFacts, TilePath};
 use estampe_simd::{LANES, Level};
-use std::ops::Range;
 
 /// Sub-draws whose plans one thread makes.
 const PART_PLANS: usize = 512;
@@ -235,10 +234,5 @@ impl<'a> DrawBatch<'a> {
                 *into = plan(sub_draw);
             }
         });
-    }
-
-    /// The places of the vertices of a group's sub-draws.
-    pub(crate) fn spans(&self, group: Range<usize>) -> impl Iterator<Item = &VertexSpan> + Clone {
-        self.sub_draws[group].iter().map(|sub_draw| &sub_draw.span)
     }
 }

@@ -63,6 +63,12 @@ pub(super) struct Instances {
     pub(super) count: u32,
 }
 
+impl AsRef<VertexSpan> for SubDraw<'_> {
+    fn as_ref(&self) -> &VertexSpan {
+        &self.span
+    }
+}
+
 impl<'a> SubDraw<'a> {
     /// A sub-draw of `primitives` primitives in each instance.
     pub(super) fn cut(

@@ -144,20 +144,6 @@ impl Executor {
         self.threads
     }
 
-    /// Runs `work` for every job, each with one worker's scratch.
-    pub(crate) fn for_each<T: Send, C: Send>(
-        &self,
-        jobs: &mut [T],
-        scratch: &[Mutex<C>],
-        work: impl Fn(&mut T, &mut C) + Sync,
-    ) {
-        self.for_each_worker(jobs, scratch, |next, mine| {
-            while let Some(jobs) = next() {
-                jobs.iter_mut().for_each(|job| work(job, mine));
-            }
-        });
-    }
-
     /// Runs `work` for every job.
     pub(crate) fn for_each_alone<T: Send>(&self, jobs: &mut [T], work: impl Fn(&mut T) + Sync) {
         self.share(jobs, |_, next| {
@@ -298,17 +284,19 @@ mod tests {
     fn every_item_is_worked_on_once() {
         for threads in [1, 2, 7] {
             let executor = Executor::new(threads).unwrap();
-            let scratch: Vec<Mutex<u32>> = (0..threads).map(|_| Mutex::default()).collect();
+            let scratch: Vec<Mutex<usize>> = (0..threads).map(|_| Mutex::default()).collect();
             for len in [0, 1, 2, 3, 100, 1000] {
                 let mut items = vec![0; len];
-                executor.for_each(&mut items, &scratch, |item, sum| {
-                    *item += 1;
-                    *sum += 1;
+                executor.for_each_worker(&mut items[..], &scratch, |next, sum| {
+                    while let Some(items) = next() {
+                        items.iter_mut().for_each(|item| *item += 1);
+                        *sum += items.len();
+                    }
                 });
                 executor.for_each_alone(&mut items, |item| *item += 1);
                 assert_eq!(items, vec![2; len]);
             }
-            let sum: u32 = scratch.iter().map(|sum| *lock(sum)).sum();
+            let sum: usize = scratch.iter().map(|sum| *lock(sum)).sum();
             assert_eq!(sum, 1106);
         }
     }

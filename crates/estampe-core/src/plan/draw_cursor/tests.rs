@@ -63,7 +63,7 @@ fn cut(draws: &[Draw<'_>], mut check: impl FnMut(usize, &DrawBatch<'_>)) -> usiz
             assert_eq!(group.start, sub_draws);
             sub_draws = group.end;
             let mut vertex = 0;
-            for span in batch.spans(group) {
+            for SubDraw { span, .. } in &batch.sub_draws[group] {
                 let places = (span.group, span.first, span.first_varying);
                 assert_eq!(places, (groups, vertex, 2 * vertex));
                 assert!(vertex < GROUP_BUDGET, "a group that was full");
@@ -238,7 +238,7 @@ fn facts_on(threads: usize, draws: DrawList<'_>) -> (Vec<Facts>, Vec<usize>, usi
     assert_eq!(cursor.draws_left(), draws.len());
     while let Some(group) = cursor.next_group(&executor, &target, &mut batch) {
         let (mut vertices, mut scalars) = (0, 0);
-        for span in batch.spans(group) {
+        for SubDraw { span, .. } in &batch.sub_draws[group] {
             assert_eq!((span.first, span.first_varying), (vertices, scalars));
             vertices += span.count;
             scalars += span.count * span.varying_scalars;
