@@ -10,8 +10,9 @@ pub(crate) const BLOCK: u32 = 64;
 /// A tile is 64×64 pixels for one sample, so that RGBA8 and depth fill the first-level cache, 32
 /// KiB. It is as large for four samples, 128 KiB: what each triangle costs in each tile that it
 /// touches is more than what the second-level cache does (`msaa4` took a tenth longer with tiles of
-/// 32×32 pixels). Only for 2, 8 and 16 samples it is 32×32. Tiles are numbered in storage order:
-/// tile `n` is the `n`-th slice of `tile_pixels() * samples`.
+/// 32×32 pixels). It is 32×32 for 2, 8 and 16 samples, and where tiles are
+/// [few for the threads](TileGrid::for_threads). Tiles are numbered in storage order: tile `n`
+/// is the `n`-th slice of `tile_pixels() * samples`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct TileGrid {
     /// Blocks in a row of the target.
@@ -32,6 +33,27 @@ impl TileGrid {
                 _ => 5,
             },
         }
+    }
+
+    /// The grid of a pass that so many threads draw: of smaller tiles where these are so few that
+    /// threads would wait for a third of the time. What a primitive costs in each tile that it
+    /// touches is why tiles are not small otherwise (`blend` took half as long again with 960 for
+    /// 64 threads in place of 240). Images and their order of storage are the same.
+    pub(crate) fn for_threads(self, threads: usize) -> Self {
+        let tiles = self.tiles();
+        let taken = tiles.div_ceil(threads) * threads;
+        if tiles * 3 >= taken * 2 {
+            return self;
+        }
+        Self {
+            tile_log2: 5,
+            ..self
+        }
+    }
+
+    /// True if tiles are whole blocks.
+    pub(crate) fn tiles_are_blocks(self) -> bool {
+        1 << self.tile_log2 == BLOCK
     }
 
     /// log₂ of a tile's side.
@@ -107,8 +129,8 @@ mod tests {
 
     #[test]
     fn tiles_are_numbered_in_storage_order() {
-        for samples in [1, 4, 8] {
-            let grid = TileGrid::new(200, 130, samples);
+        for (samples, threads) in [(1, 1), (4, 1), (8, 1), (4, 64), (8, 64)] {
+            let grid = TileGrid::new(200, 130, samples).for_threads(threads);
             let side = 1u32 << grid.tile_log2();
             let mut seen = vec![false; grid.tiles()];
             for y in (0..192u32).step_by(side as usize) {
@@ -122,6 +144,16 @@ mod tests {
             }
             assert!(seen.into_iter().all(|seen| seen));
         }
+    }
+
+    #[test]
+    fn tiles_are_smaller_where_threads_would_wait() {
+        let tiles = |side, threads| TileGrid::new(side, side, 1).for_threads(threads).tiles();
+        let of_16 = [1, 2, 4, 8, 12, 14, 16, 24, 25].map(|threads| tiles(256, threads));
+        assert_eq!(of_16, [16, 16, 16, 16, 16, 64, 16, 16, 64]);
+        let of_9 = [1, 2, 4, 5, 6, 7, 8, 9, 13, 14].map(|threads| tiles(192, threads));
+        assert_eq!(of_9, [9, 9, 9, 9, 9, 36, 36, 9, 9, 36]);
+        assert_eq!([1, 2, 64].map(|threads| tiles(1, threads)), [1, 4, 4]);
     }
 
     #[test]

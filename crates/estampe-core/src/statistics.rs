@@ -3,8 +3,9 @@
 use crate::tile_path::PathCounts;
 use std::time::Duration;
 
-/// Counts and times of one render pass. Counts do not depend on threads, and but for those of
-/// fragments and runs not on the SIMD level; times do.
+/// Counts and times of one render pass. Counts do not depend on the SIMD level, but for those of
+/// fragments and runs, and not on threads, but for those of tiles and of what is done in each tile,
+/// as several threads draw small targets in smaller tiles; times depend on both.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Statistics {
     /// Vertices that went through the vertex shader.
@@ -126,6 +127,9 @@ pub struct Statistics {
     /// Colour attachments of tiles that were resolved when the tile was drawn.
     #[doc(hidden)]
     pub tiles_resolved: u64,
+    /// Tiles that are smaller than others of as many samples, as these were few for the threads.
+    #[doc(hidden)]
+    pub tiles_for_threads: u64,
     /// Tiles that no primitive reached.
     #[doc(hidden)]
     pub tiles_only_cleared: u64,
@@ -212,6 +216,7 @@ impl std::ops::AddAssign for Statistics {
         self.paths += other.paths;
         self.groups_of_geometry += other.groups_of_geometry;
         self.tiles_resolved += other.tiles_resolved;
+        self.tiles_for_threads += other.tiles_for_threads;
         self.tiles_only_cleared += other.tiles_only_cleared;
         self.tiles_to_rows += other.tiles_to_rows;
         self.tiles_bounded += other.tiles_bounded;

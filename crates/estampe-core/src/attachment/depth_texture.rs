@@ -6,7 +6,7 @@
 
 use super::bands::Bands;
 use super::texels::DepthStencilTexels;
-use crate::layout::BLOCK;
+use crate::layout::{BLOCK, TileGrid};
 use estampe_simd::Level;
 use estampe_types::{Lines, ShadowMap};
 use std::sync::Arc;
@@ -38,6 +38,8 @@ enum Current {
 pub(crate) struct StoredBounds<'a> {
     /// Words of a row, one for each packet.
     stride: usize,
+    /// Packets along a side of a tile.
+    tile_packets: usize,
     /// The rows of packets of a block each.
     bands: Bands<'a>,
 }
@@ -58,8 +60,11 @@ impl StoredBounds<'_> {
         let Some(mut band) = self.bands.lock((top / BLOCK) as usize) else {
             return;
         };
-        for (row, of_row) in band.chunks_exact_mut(self.stride).zip(bounds) {
-            row[left as usize / 4..][..PACKETS].copy_from_slice(&of_row);
+        let rows = band.chunks_exact_mut(self.stride);
+        let rows = rows.skip((top % BLOCK) as usize / 4).zip(bounds);
+        for (row, of_row) in rows.take(self.tile_packets) {
+            let row = &mut row[left as usize / 4..][..self.tile_packets];
+            row.copy_from_slice(&of_row[..self.tile_packets]);
         }
     }
 }
@@ -100,12 +105,13 @@ impl BoundsJob<'_, '_> {
 }
 
 impl DepthBounds {
-    /// The bounds of an image of one sample, to be found.
-    fn stored(&mut self, [width, height]: [u32; 2]) -> StoredBounds<'_> {
+    /// The bounds of an image of one sample, to be found tile by tile.
+    fn stored(&mut self, [width, height]: [u32; 2], grid: TileGrid) -> StoredBounds<'_> {
         self.words.resize(ShadowMap::bounds_len(width, height), 0);
         let stride = ShadowMap::bounds_stride(width);
         StoredBounds {
             stride,
+            tile_packets: 1 << (grid.tile_log2() - 2),
             bands: Bands::of(&mut self.words, stride * PACKETS),
         }
     }
@@ -130,7 +136,7 @@ impl DepthBounds {
     }
 }
 
-/// The packets along a side of a tile.
+/// The packets along a side of a block.
 const PACKETS: usize = BLOCK as usize / 4;
 
 impl DepthStencilTexels {
@@ -140,20 +146,21 @@ impl DepthStencilTexels {
         Arc::make_mut(&mut self.depth)
     }
 
-    /// The depths and stencil values for the last tiles of a pass, and their bounds, if these are
-    /// to be found with them; the bounds are then taken to be found.
+    /// The depths and stencil values, to be changed. They are `kept` as the last tiles of a pass
+    /// leave them; then also their bounds, if these are to be found with them, and are taken to be
+    /// found.
     pub(crate) fn tiles_mut(
         &mut self,
-        keeps_depths: bool,
+        kept: Option<TileGrid>,
     ) -> (&mut Lines<f32>, &mut Lines<u8>, Option<StoredBounds<'_>>) {
-        let finds = keeps_depths && self.bounds.are_wanted && self.has_texture();
-        self.bounds.current = if finds {
-            Current::Bounds
-        } else {
-            Current::Nothing
+        let finds = self.bounds.are_wanted && self.has_texture();
+        let found = kept.filter(|_| finds);
+        self.bounds.current = match found {
+            Some(_) => Current::Bounds,
+            None => Current::Nothing,
         };
         let size = [self.size.width, self.size.height];
-        let bounds = finds.then(|| self.bounds.stored(size));
+        let bounds = found.map(|grid| self.bounds.stored(size, grid));
         (Arc::make_mut(&mut self.depth), &mut self.stencil, bounds)
     }
 
@@ -174,7 +181,7 @@ impl DepthStencilTexels {
         let (width, height) = (self.size.width, self.size.height);
         if self.bounds.current == Current::Nothing {
             let grid = self.size.grid();
-            let bounds = &self.bounds.stored([width, height]);
+            let bounds = &self.bounds.stored([width, height], grid);
             let tiles = self.depth.chunks_exact(grid.tile_pixels());
             let jobs = (0..).zip(tiles).map(|(tile, depths)| BoundsJob::Tile {
                 depths,
@@ -251,7 +258,9 @@ mod tests {
             samples: 1,
         };
         let mut texels = DepthStencilTexels::zeros(TextureFormat::Depth32Float, size).unwrap();
-        assert!(texels.tiles_mut(true).2.is_none(), "no texture was taken");
+        let grid = size.grid();
+        let untaken = texels.tiles_mut(Some(grid)).2;
+        assert!(untaken.is_none(), "no texture was taken");
         let run = |jobs: &mut [BoundsJob<'_, '_>]| {
             jobs.iter_mut().for_each(|job| job.run(Level::best()));
             // Six tiles; two rows of them.
@@ -259,30 +268,39 @@ mod tests {
             assert!(matches!(jobs.len(), 6 | 2));
         };
         assert!(texels.depth_texture(run).is_some());
-        let grid = size.grid();
-        let (depths, _, bounds) = texels.tiles_mut(true);
-        depths.fill(0.5);
-        let bounds = bounds.unwrap();
-        for (tile, depths) in (0..).zip(depths.chunks_exact(64 * 64)) {
-            let origin = grid.tile_origin(tile);
-            match tile % 2 {
-                0 => bounds.find(Level::best(), origin, depths),
-                _ => bounds.fill(origin, 0.5),
+        for grid in [grid, grid.for_threads(64)] {
+            let (depths, _, bounds) = texels.tiles_mut(Some(grid));
+            depths.fill(0.5);
+            let bounds = bounds.unwrap();
+            for (tile, depths) in (0..).zip(depths.chunks_exact_mut(grid.tile_pixels())) {
+                let origin = grid.tile_origin(tile);
+                let depth = f32::from(u16::try_from(tile).unwrap()) / 32.0;
+                depths.fill(depth);
+                match tile % 2 {
+                    0 => bounds.find(Level::best(), origin, depths),
+                    _ => bounds.fill(origin, depth),
+                }
+            }
+            let map = texels.depth_texture(|jobs| {
+                assert!(
+                    matches!(jobs, [BoundsJob::Windows { .. }, _]),
+                    "the bounds are found"
+                );
+                jobs.iter_mut().for_each(|job| job.run(Level::best()));
+            });
+            let (map, stride) = (map.unwrap(), ShadowMap::bounds_stride(size.width));
+            for tile in 0..u32::try_from(grid.tiles()).unwrap() {
+                let (x, y) = grid.tile_origin(tile);
+                let word = map.windows()[y as usize / 4 * stride + x as usize / 4];
+                // Windows reach into the next packets: the first of a tile lies in it.
+                let depth = tile * 0x4000 / 16;
+                assert_eq!(word, depth << 16 | depth, "tile {tile} of {grid:?}");
             }
         }
-        let map = texels.depth_texture(|jobs| {
-            assert!(
-                matches!(jobs, [BoundsJob::Windows { .. }, _]),
-                "the bounds are found"
-            );
-            jobs.iter_mut().for_each(|job| job.run(Level::best()));
-        });
-        let half = 0x4000_4000;
-        assert!(map.unwrap().windows().iter().all(|word| *word == half));
         let map = texels.depth_texture(|_| panic!("all is found"));
         assert!(map.is_some());
         assert!(
-            texels.tiles_mut(false).2.is_none(),
+            texels.tiles_mut(None).2.is_none(),
             "depths that are not kept"
         );
         assert!(texels.bounds.current == Current::Nothing);

@@ -48,7 +48,7 @@ impl<'a> ResolveDepthJob<'a> {
         let count = from.size.stored_samples() / samples / LANES / JOB_PACKETS;
         let mut depth = from.depth.as_chunks().0.chunks(JOB_PACKETS * samples);
         let mut stencil = from.stencil.as_chunks().0.chunks(JOB_PACKETS * samples);
-        let (to_depth, to_stencil, _) = into.tiles_mut(false);
+        let (to_depth, to_stencil, _) = into.tiles_mut(None);
         let mut to_depth = to_depth.as_chunks_mut().0.chunks_mut(JOB_PACKETS);
         let mut to_stencil = to_stencil.as_chunks_mut().0.chunks_mut(JOB_PACKETS);
         let jobs = (0..count).map(|_| Self {
@@ -131,7 +131,7 @@ mod tests {
         let mut from = DepthStencilTexels::zeros(format, size(4)).unwrap();
         let fixed = from.depth_format();
         let depths = [0.5, 0.25, 1.0, 0.75].map(|depth| fixed.stored(depth));
-        let (stored, stencils, _) = from.tiles_mut(false);
+        let (stored, stencils, _) = from.tiles_mut(None);
         for (packet, stencil) in stencils.chunks_exact_mut(LANES * 4).enumerate() {
             let depth = &mut stored[packet * LANES * 4..][..LANES * 4];
             for sample in 0..4 {

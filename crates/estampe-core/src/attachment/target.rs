@@ -23,6 +23,8 @@ pub struct TargetShape<'a> {
 #[derive(Debug, Clone)]
 pub struct RenderTarget {
     pub(crate) size: ImageSize,
+    /// The tiles of the pass at hand.
+    grid: TileGrid,
     pub(crate) colors: Vec<ColorTexels>,
     pub(crate) color_formats: Vec<TextureFormat>,
     pub(crate) depth_stencil: Option<DepthStencilTexels>,
@@ -77,6 +79,7 @@ impl RenderTarget {
         );
         Self {
             size,
+            grid: size.grid(),
             color_formats: colors.iter().map(|color| color.format).collect(),
             colors,
             depth_stencil,
@@ -206,7 +209,13 @@ impl RenderTarget {
         format.is_some_and(TextureFormat::has_stencil)
     }
 
+    /// Divides the target into tiles for a pass that so many threads draw.
+    pub(crate) fn divide_for(&mut self, threads: usize) {
+        self.grid = self.size.grid().for_threads(threads);
+    }
+
+    /// The tiles of the pass at hand.
     pub(crate) fn grid(&self) -> TileGrid {
-        self.size.grid()
+        self.grid
     }
 }

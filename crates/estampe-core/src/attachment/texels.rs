@@ -18,7 +18,8 @@ pub struct ImageSize {
 }
 
 impl ImageSize {
-    pub(super) fn grid(self) -> TileGrid {
+    /// The tiles of a pass that one thread draws.
+    pub(crate) fn grid(self) -> TileGrid {
         TileGrid::new(self.width, self.height, self.samples)
     }
 

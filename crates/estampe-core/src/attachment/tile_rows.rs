@@ -7,7 +7,7 @@ use super::bands::Bands;
 use super::detile::{MAX_BYTES, PACKET_SIDE, SQUARE, rows_of_band, write_rows};
 use super::row_order::{swapped, swaps_red_and_blue};
 use super::texels::ImageSize;
-use crate::layout::{BLOCK, morton, texel_words};
+use crate::layout::{TileGrid, morton, texel_words};
 use estampe_simd::{LANES, Lanes, Level, dispatch};
 use estampe_types::TextureFormat;
 
@@ -30,15 +30,18 @@ pub(crate) struct RowsPlace {
     address: usize,
     /// Width and height of the image in pixels.
     size: [u32; 2],
+    /// Pixels of a tile's side.
+    tile_side: u32,
     /// Words of a texel.
     texel_words: usize,
 }
 
 impl<'a> StoredRows<'a> {
-    /// The rows of an image, which has whole rows of the attachment's width.
+    /// The rows of an image, which has whole rows of the attachment's width; and the tiles of the
+    /// attachment.
     pub(crate) fn of_image(
         (color, format): (usize, TextureFormat),
-        size: ImageSize,
+        (size, grid): (ImageSize, TileGrid),
         image: &'a mut [u32],
     ) -> Self {
         debug_assert_eq!(size.samples, 1, "tiles of one sample");
@@ -46,6 +49,7 @@ impl<'a> StoredRows<'a> {
             color,
             address: image.as_ptr().addr(),
             size: [size.width, size.height],
+            tile_side: 1 << grid.tile_log2(),
             texel_words: texel_words(format),
         };
         Self {
@@ -73,12 +77,15 @@ impl<'a> StoredRows<'a> {
         tile: &[u32],
     ) {
         let first = left as usize;
-        let [width, _] = self.place.size;
-        let columns = width.saturating_sub(left).min(BLOCK) as usize;
+        let ([width, _], side) = (self.place.size, self.place.tile_side);
+        let columns = width.saturating_sub(left).min(side) as usize;
+        if columns == 0 {
+            return;
+        }
         let row_bytes = self.place.row_words() * 4;
         let swaps = swaps_red_and_blue(self.format);
         let first_band = top as usize / PACKET_SIDE;
-        for (number, y) in (first_band..).zip(0..BLOCK / 4) {
+        for (number, y) in (first_band..).zip(0..side / 4) {
             let Some(mut band) = self.bands.lock(number) else {
                 return;
             };
@@ -120,14 +127,14 @@ impl RowsPlace {
     /// The cache lines of the tile with this left column and top row.
     pub(crate) fn lines_of_tile(&self, (left, top): (u32, u32)) -> TileLines {
         const LINE_WORDS: usize = 16;
-        let [width, height] = self.size;
+        let ([width, height], side) = (self.size, self.tile_side);
         let row_bytes = self.row_words() * 4;
-        let columns = width.saturating_sub(left).min(BLOCK) as usize;
+        let columns = width.saturating_sub(left).min(side) as usize;
         TileLines {
             address: self.address + top as usize * row_bytes + left as usize * self.texel_words * 4,
             row_bytes,
             of_row: (columns * self.texel_words).div_ceil(LINE_WORDS),
-            rows: height.saturating_sub(top).min(BLOCK) as usize,
+            rows: height.saturating_sub(top).min(side) as usize,
         }
     }
 }
@@ -170,16 +177,18 @@ mod tests {
                     texels
                         .row_jobs(&mut whole)
                         .for_each(|mut job| job.run(level));
-                    let mut of_tiles = vec![0; whole.len()];
-                    let rows = StoredRows::of_image((0, format), size, &mut of_tiles);
-                    let grid = size.grid();
-                    let tile_words = grid.tile_pixels() * texel_words(format);
-                    let tiles = texels.words.chunks(tile_words);
-                    assert_eq!(tiles.len(), grid.tiles());
-                    for (number, tile) in (0..).zip(tiles) {
-                        rows.store(level, grid.tile_origin(number), tile);
+                    for threads in [1, 64] {
+                        let mut of_tiles = vec![0; whole.len()];
+                        let grid = size.grid().for_threads(threads);
+                        let rows = StoredRows::of_image((0, format), (size, grid), &mut of_tiles);
+                        let tile_words = grid.tile_pixels() * texel_words(format);
+                        let tiles = texels.words.chunks(tile_words);
+                        assert_eq!(tiles.len(), grid.tiles());
+                        for (number, tile) in (0..).zip(tiles) {
+                            rows.store(level, grid.tile_origin(number), tile);
+                        }
+                        assert!(whole == of_tiles, "{}, {grid:?}, {level:?}", format.name());
                     }
-                    assert!(whole == of_tiles, "{}, {size:?}, {level:?}", format.name());
                 }
             }
         }
@@ -197,15 +206,18 @@ mod tests {
         );
         let mut image = vec![0; row_order_words(format, size)];
         let first = image.as_ptr().addr();
-        let rows = StoredRows::of_image((0, format), size, &mut image);
-        let of = |x, y| {
+        let mut of = |threads, x, y| {
+            let tiles = (size, size.grid().for_threads(threads));
+            let rows = StoredRows::of_image((0, format), tiles, &mut image);
             let lines = rows.place.lines_of_tile((x, y));
             let texel = (lines.address - first) / 4;
             assert_eq!(lines.row_bytes, 70 * 4);
             (texel, lines.of_row, lines.rows)
         };
-        assert_eq!(of(0, 0), (0, 4, 64));
-        assert_eq!(of(64, 0), (64, 1, 64));
-        assert_eq!(of(64, 64), (64 * 70 + 64, 1, 2));
+        assert_eq!(of(1, 0, 0), (0, 4, 64));
+        assert_eq!(of(1, 64, 0), (64, 1, 64));
+        assert_eq!(of(1, 64, 64), (64 * 70 + 64, 1, 2));
+        assert_eq!(of(64, 32, 32), (32 * 70 + 32, 2, 32));
+        assert_eq!(of(64, 64, 64), (64 * 70 + 64, 1, 2));
     }
 }

@@ -205,6 +205,7 @@ impl Context {
         for rows in &mut target.rows {
             rows.is_done = false;
         }
+        target.divide_for(executor.threads());
         let parts = std::mem::take(&mut memory.lists.parts);
         let parts = parts.into_iter().map(DrawBatch::recycled).collect();
         let mut cursor = DrawCursor::new(pass.draws, self.level, parts);

@@ -92,11 +92,14 @@ impl Context {
             rows: &places,
         };
         let pass = (&pass, &stores);
-        let statistics = match facts.samples {
+        let mut statistics = match facts.samples {
             1 if !self.level.is_scalar() => run(executor, pass, jobs, &memory.tiles_1),
             4 if !self.level.is_scalar() => run(executor, pass, jobs, &memory.tiles_4),
             _ => run(executor, pass, jobs, &memory.tiles_many),
         };
+        if grid != size.grid() {
+            statistics.tiles_for_threads += grid.tiles() as u64;
+        }
         memory.lists.plans = recycled(plans);
         memory.lists.tile_states = recycled(states);
         Ok(statistics)

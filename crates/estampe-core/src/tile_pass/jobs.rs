@@ -86,11 +86,11 @@ impl<'a> TileJobs<'a> {
         for rows in target.rows.iter_mut().filter(|rows| rows.is_done) {
             let color = (rows.color, target.color_formats[rows.color]);
             let words = rows.words_mut();
-            let image = words.map(|words| StoredRows::of_image(color, target.size, words));
+            let image = words.map(|words| StoredRows::of_image(color, (target.size, grid), words));
             stores.rows.extend(image);
         }
         if let Some(texels) = &mut target.depth_stencil {
-            let (depth, stencil, bounds) = texels.tiles_mut(keeps_depths);
+            let (depth, stencil, bounds) = texels.tiles_mut(keeps_depths.then_some(grid));
             jobs.depth = TilePackets::new(depth, elements);
             jobs.stencil = TilePackets::new(stencil, elements);
             stores.bounds = bounds;

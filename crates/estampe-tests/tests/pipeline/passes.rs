@@ -240,3 +240,26 @@ fn tiles_that_no_primitive_reaches_are_only_cleared_or_kept() {
         "a primitive reached each tile"
     );
 }
+
+/// Several threads draw small targets in smaller tiles.
+///
+/// Rows: R1, R3, R6, O8.
+#[test]
+fn tiles_are_smaller_where_they_are_few_for_the_threads() {
+    let statistics = check_paths(
+        "passes/smaller tiles",
+        16,
+        ExpectedPaths::default(),
+        |random| {
+            let size = random.pick(&[[100, 60], [31, 33], [64, 64], [1, 70]]);
+            let mut case = Case::new(size, random.pick(&[1, 1, 4, 8]));
+            case.clear_color = random.four(-0.5, 1.5);
+            for _ in 0..3 {
+                case.draws.push(any_draw(random, size, 12));
+            }
+            case.second_pass = random.index(3);
+            case
+        },
+    );
+    assert!(statistics.tiles_for_threads > 0, "no tile was smaller");
+}

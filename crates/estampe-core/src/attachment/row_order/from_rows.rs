@@ -39,7 +39,7 @@ impl DepthStencilTexels {
         debug_assert_eq!(rows.len(), row_order_words(self.format, self.size));
         let (format, size) = (self.format, self.size);
         let row = row_of_blocks(size);
-        let (depth, stencil, _) = self.tiles_mut(false);
+        let (depth, stencil, _) = self.tiles_mut(None);
         let mut depth = depth.chunks_exact_mut(row);
         let mut stencil = stencil.chunks_exact_mut(row);
         (0..size.height.div_ceil(BLOCK)).map(move |y| FromRowsJob {

@@ -43,10 +43,10 @@ pub(super) struct ShadingGroup {
     pub(super) sub_draw: u32,
 }
 
-/// Samples of a tile where a pixel has one.
+/// Samples of a tile of 64×64 pixels where a pixel has one.
 pub(super) const TILE_SAMPLES: usize = MAX_PACKETS * LANES;
 
-/// Samples of a tile where a pixel has four.
+/// Samples of such a tile where a pixel has four.
 pub(super) const TILE_SAMPLES_OF_FOUR: usize = 4 * TILE_SAMPLES;
 
 /// Samples that hold an id of a small primitive: a byte each, 1 of those that do.
@@ -107,9 +107,9 @@ impl<const N: usize> Default for VisibilityBuffer<N> {
     }
 }
 
-/// Lines of sixteen ids that a tile has at most: of one sample or four it is 64×64 pixels large, of
-/// others 32×32.
-const fn most_lines(samples: usize) -> usize {
+/// Lines of sixteen samples that a tile has at most: of one sample or four it is 64×64 pixels
+/// large, of others 32×32.
+pub(super) const fn most_lines(samples: usize) -> usize {
     match samples {
         1 | 4 => MAX_PACKETS * samples,
         _ => MAX_PACKETS / 4 * samples,

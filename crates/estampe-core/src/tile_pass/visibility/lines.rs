@@ -32,6 +32,7 @@ pub(in crate::tile_pass) fn takes_lines<const N: usize>(
 ) -> bool {
     let plan = work.plan;
     let may_join = const { N == 1 }
+        && pass.grid.tiles_are_blocks()
         && plan.pipeline.key().is_opaque_lines
         && plan.path == TilePath::InOrderQuads
         && plan.cut_samples.is_none();
@@ -80,8 +81,8 @@ impl<const N: usize> TileScratch<N> {
             IdStorage::BufferData | IdStorage::None => buffer.ids.as_flattened_mut(),
         };
         let ids: Option<&mut [u32; TILE_SAMPLES]> = ids.first_chunk_mut();
+        debug_assert!(ids.is_some(), "a tile of 64×64 pixels of one sample");
         let Some(ids) = ids else {
-            debug_assert!(N > 1, "a tile of one sample");
             return;
         };
         let shown = buffer.shown.begin::<TILE_SAMPLES>();

@@ -2,7 +2,7 @@
 //! sample, and the list tested pixel by pixel.
 
 use super::ONLY_WIDE;
-use super::buffer::{TILE_SAMPLES, TILE_SAMPLES_OF_FOUR};
+use super::buffer::{TILE_SAMPLES, TILE_SAMPLES_OF_FOUR, most_lines};
 use super::rasterize::Rasterizer;
 use super::writer::VisibilityWriter;
 use crate::bounds::primitives::TrianglePacket;
@@ -119,7 +119,8 @@ impl<const N: usize> VisibilityWriter<'_, N> {
         front: u16,
         numbering: &mut impl Numbering,
     ) -> u16 {
-        if !self.tests_less_alone() || self.passed.is_some() {
+        let is_large = self.depth.len() == most_lines(N);
+        if !self.tests_less_alone() || self.passed.is_some() || !is_large {
             return self.pixels_of_any_test(list, front, numbering);
         }
         match (const { N == 1 }, self.has_ids()) {
@@ -144,7 +145,7 @@ impl<const N: usize> VisibilityWriter<'_, N> {
         let ids = self.ids.as_flattened_mut().first_chunk_mut();
         let (depth, ids): (Option<&mut [f32; SAMPLES]>, Option<&mut [u32; SAMPLES]>) = (depth, ids);
         let (Some(depth), Some(ids)) = (depth, ids) else {
-            debug_assert!(self.depth.is_empty(), "a tile of one sample or four");
+            debug_assert!(N > 4, "a tile of 64×64 pixels");
             return;
         };
         let shown = self.shown.begin::<SAMPLES>();
@@ -166,7 +167,7 @@ impl<const N: usize> VisibilityWriter<'_, N> {
         let depth = self.depth.as_flattened_mut().first_chunk_mut();
         let depth: Option<&mut [f32; SAMPLES]> = depth;
         let Some(depth) = depth else {
-            debug_assert!(self.depth.is_empty(), "a tile of one sample or four");
+            debug_assert!(N > 4, "a tile of 64×64 pixels");
             return;
         };
         for (_, at, new) in list.iter() {
