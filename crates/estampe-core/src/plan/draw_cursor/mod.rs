@@ -1,8 +1,8 @@
 //! The draw cursor: cuts a pass's draws into batches of sub-draws.
 //!
-//! Of a pass of thousands of draws, parts of a few hundred each are cut [on all
-//! threads](parts), and added to the batch in order. Large draws, and all draws of other passes, are
-//! cut one after the other.
+//! Of a pass of many draws, parts of some dozens or hundreds each are cut [on all threads](parts),
+//! and added to the batch in order. Large draws, and all draws of other passes, are cut one after
+//! the other.
 
 mod open_draw;
 mod parts;
