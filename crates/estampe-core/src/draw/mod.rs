@@ -20,12 +20,12 @@ use crate::profile::JobTimings;
 use crate::raster::MAX_SAMPLES;
 use crate::schedule::{Awake, Executor, ThreadError, ThreadPool};
 use crate::statistics::Statistics;
-use crate::tile_pass::{Clear, TileScratch};
+use crate::tile_pass::Clear;
 use estampe_simd::Level;
 use geometry::ChunkJob;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Instant;
-use tiles::TileAttachments;
+use tiles::{TileAttachments, TileWorkers};
 
 /// The resources that draws need besides their data: threads, a SIMD level, and memory that is
 /// reused.
@@ -49,20 +49,22 @@ pub(crate) struct Memory {
     chunk_index: ChunkIndex,
     shading: Vec<Mutex<ShadingScratch>>,
     chunk_scratch: Vec<Mutex<ChunkScratch>>,
-    tiles_1: Vec<Mutex<TileScratch<1>>>,
-    tiles_4: Vec<Mutex<TileScratch<4>>>,
-    tiles_many: Vec<Mutex<TileScratch<MAX_SAMPLES>>>,
+    tiles_1: TileWorkers<1>,
+    tiles_4: TileWorkers<4>,
+    tiles_many: TileWorkers<MAX_SAMPLES>,
 }
 
 impl Memory {
     /// Memory for so many workers.
     fn new(workers: usize) -> Self {
-        let mut memory = Self::default();
+        let mut memory = Self {
+            tiles_1: TileWorkers::new(workers),
+            tiles_4: TileWorkers::new(workers),
+            tiles_many: TileWorkers::new(workers),
+            ..Self::default()
+        };
         memory.shading.resize_with(workers, Mutex::default);
         memory.chunk_scratch.resize_with(workers, Mutex::default);
-        memory.tiles_1.resize_with(workers, Mutex::default);
-        memory.tiles_4.resize_with(workers, Mutex::default);
-        memory.tiles_many.resize_with(workers, Mutex::default);
         memory
     }
 }

@@ -44,14 +44,12 @@ impl Context {
             discards,
         } = attachments;
         // First of all: where memory is short, no image is taken to be drawn or resolved.
-        if discards != Discards::default() {
-            let words = TileWords::of(target, discards);
-            match target.samples() {
-                1 if !self.level.is_scalar() => begin_pass(&mut memory.tiles_1, &words),
-                4 if !self.level.is_scalar() => begin_pass(&mut memory.tiles_4, &words),
-                _ => begin_pass(&mut memory.tiles_many, &words),
-            }?;
-        }
+        let words = TileWords::of(target, discards);
+        match target.samples() {
+            1 if !self.level.is_scalar() => memory.tiles_1.make_room(words),
+            4 if !self.level.is_scalar() => memory.tiles_4.make_room(words),
+            _ => memory.tiles_many.make_room(words),
+        }?;
         let mut resolved = [None; MAX_TARGETS];
         for resolve in target.resolves.iter_mut().filter(|_| is_last) {
             resolved[resolve.color] = Some(resolve.into.format());
@@ -88,14 +86,15 @@ impl Context {
             samples: facts.samples,
             occlusion_queries,
             discards,
+            worker_words: &words,
             resolved,
             rows: &places,
         };
         let pass = (&pass, &stores);
         let mut statistics = match facts.samples {
-            1 if !self.level.is_scalar() => run(executor, pass, jobs, &memory.tiles_1),
-            4 if !self.level.is_scalar() => run(executor, pass, jobs, &memory.tiles_4),
-            _ => run(executor, pass, jobs, &memory.tiles_many),
+            1 if !self.level.is_scalar() => memory.tiles_1.draw(executor, pass, jobs),
+            4 if !self.level.is_scalar() => memory.tiles_4.draw(executor, pass, jobs),
+            _ => memory.tiles_many.draw(executor, pass, jobs),
         };
         if grid != size.grid() {
             statistics.tiles_for_threads += grid.tiles() as u64;
@@ -106,33 +105,54 @@ impl Context {
     }
 }
 
-/// Takes the memory of all workers for tiles of the attachments that a pass discards.
-fn begin_pass<const N: usize>(
-    scratch: &mut [Mutex<TileScratch<N>>],
-    words: &TileWords,
-) -> Result<(), RenderPassError> {
-    for worker in scratch {
-        let worker = worker.get_mut().unwrap_or_else(PoisonError::into_inner);
-        let taken = worker.begin_pass(words);
-        taken.ok_or_else(|| out_of_memory(words.bytes()))?;
-    }
-    Ok(())
+/// Memory of the workers that draw tiles of `N` samples.
+#[derive(Debug, Default)]
+pub(super) struct TileWorkers<const N: usize> {
+    scratch: Vec<Mutex<TileScratch<N>>>,
+    /// What each has room for of a tile that a pass discards.
+    room: TileWords,
 }
 
-/// Draws all tiles; gives what was counted.
-fn run<const N: usize>(
-    executor: &Executor,
-    pass: (&TilePass<'_>, &TileStores<'_>),
-    jobs: TileJobs<'_>,
-    scratch: &[Mutex<TileScratch<N>>],
-) -> Statistics {
-    let statistics = Mutex::new(Statistics::default());
-    executor.for_each_worker(jobs, scratch, |next, scratch| {
-        while let Some(jobs) = next() {
-            tile_pass::draw(pass, jobs, scratch);
+impl<const N: usize> TileWorkers<N> {
+    pub(super) fn new(workers: usize) -> Self {
+        let mut scratch = Vec::new();
+        scratch.resize_with(workers, Mutex::default);
+        Self {
+            scratch,
+            room: TileWords::default(),
         }
-        *lock(&statistics) += scratch.end_pass();
-    });
-    let statistics = lock(&statistics);
-    *statistics
+    }
+
+    /// Takes memory of each worker for so much of a tile, if the passes before needed less.
+    fn make_room(&mut self, words: TileWords) -> Result<(), RenderPassError> {
+        let room = self.room.with(words);
+        if room == self.room {
+            return Ok(());
+        }
+        for worker in &mut self.scratch {
+            let worker = worker.get_mut().unwrap_or_else(PoisonError::into_inner);
+            let made = worker.make_room(&room);
+            made.ok_or_else(|| out_of_memory(room.bytes()))?;
+        }
+        self.room = room;
+        Ok(())
+    }
+
+    /// Draws all tiles; gives what was counted.
+    fn draw(
+        &self,
+        executor: &Executor,
+        pass: (&TilePass<'_>, &TileStores<'_>),
+        jobs: TileJobs<'_>,
+    ) -> Statistics {
+        let statistics = Mutex::new(Statistics::default());
+        executor.for_each_worker(jobs, &self.scratch, |next, scratch| {
+            while let Some(jobs) = next() {
+                tile_pass::draw(pass, jobs, scratch);
+            }
+            *lock(&statistics) += scratch.end_pass();
+        });
+        let statistics = lock(&statistics);
+        *statistics
+    }
 }

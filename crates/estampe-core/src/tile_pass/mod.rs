@@ -66,8 +66,9 @@ pub(crate) struct TilePass<'a> {
     pub(crate) clear: Clear,
     pub(crate) samples: usize,
     pub(crate) occlusion_queries: Option<&'a OcclusionQueries>,
-    /// The attachments of which workers keep one tile each.
+    /// The attachments of which workers keep one tile each, and what they keep of it.
     pub(crate) discards: Discards,
+    pub(crate) worker_words: &'a TileWords,
     /// By colour attachment: the format, if it is resolved when the tile is drawn.
     pub(crate) resolved: [Option<TextureFormat>; MAX_TARGETS],
     /// The images in row order that tiles are stored to.
@@ -160,7 +161,8 @@ fn draw_in_place<const N: usize>(
         return draw_into((pass, stores), job, scratch);
     }
     let mut tile = std::mem::take(&mut scratch.tile);
-    draw_into((pass, stores), &mut tile.job(pass.discards, job), scratch);
+    let kept = (pass.discards, pass.worker_words);
+    draw_into((pass, stores), &mut tile.job(kept, job), scratch);
     scratch.statistics.tiles_in_workers += 1;
     scratch.tile = tile;
 }
@@ -286,9 +288,9 @@ fn clear_colors<const N: usize>(
 }
 
 impl<const N: usize> TileScratch<N> {
-    /// Takes the memory that a pass needs; `None` if it is short.
-    pub(crate) fn begin_pass(&mut self, words: &TileWords) -> Option<()> {
-        self.tile.begin_pass(words)
+    /// Takes memory for so much of a tile that a pass discards; `None` if it is short.
+    pub(crate) fn make_room(&mut self, words: &TileWords) -> Option<()> {
+        self.tile.make_room(words)
     }
 
     /// Ends a pass: what is known of its draws is forgotten. Gives what was counted.

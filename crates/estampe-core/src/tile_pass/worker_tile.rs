@@ -13,12 +13,10 @@ pub(super) struct WorkerTile {
     colors: [Lines<u32>; MAX_TARGETS],
     depth: Lines<f32>,
     stencil: Lines<u8>,
-    /// What the pass at hand uses of it.
-    words: TileWords,
 }
 
 /// The elements of a tile of those attachments that a pass discards.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub(crate) struct TileWords {
     colors: [usize; MAX_TARGETS],
     depth: usize,
@@ -41,6 +39,19 @@ impl TileWords {
         words
     }
 
+    /// As many as both have, of each attachment.
+    pub(crate) fn with(self, other: Self) -> Self {
+        let mut colors = self.colors;
+        for (words, other) in colors.iter_mut().zip(other.colors) {
+            *words = other.max(*words);
+        }
+        Self {
+            colors,
+            depth: self.depth.max(other.depth),
+            stencil: self.stencil.max(other.stencil),
+        }
+    }
+
     /// The memory that they take.
     pub(crate) fn bytes(&self) -> u64 {
         let words = self.colors.iter().sum::<usize>() + self.depth;
@@ -51,8 +62,7 @@ impl TileWords {
 impl WorkerTile {
     /// Takes memory, whose values do not matter, where that of the passes before is too small;
     /// `None` if it is short.
-    pub(super) fn begin_pass(&mut self, words: &TileWords) -> Option<()> {
-        self.words = *words;
+    pub(super) fn make_room(&mut self, words: &TileWords) -> Option<()> {
         for (memory, len) in self.colors.iter_mut().zip(words.colors) {
             grow(memory, len)?;
         }
@@ -63,11 +73,10 @@ impl WorkerTile {
     /// A tile's job with this memory in place of the attachments that the pass discards.
     pub(super) fn job<'a, 'b: 'a>(
         &'a mut self,
-        discards: Discards,
+        (discards, words): (Discards, &TileWords),
         job: &mut TileJob<'b>,
     ) -> TileJob<'a> {
         let mut job: TileJob<'a> = std::mem::take(job);
-        let words = self.words;
         for (index, (memory, image)) in self.colors.iter_mut().zip(&mut job.colors).enumerate() {
             if discards.colors >> index & 1 == 1 {
                 *image = memory[..words.colors[index]].as_chunks_mut().0;
