@@ -5,7 +5,7 @@ use super::simulation::{WakeUp, makespan_ns};
 use crate::BenchError;
 use crate::frame::{FrameSize, PreparedScene};
 use crate::scene::Scene;
-use estampe::{Device, Level};
+use estampe::{Device, JobTimings, Level};
 use std::time::{Duration, Instant};
 
 /// The kind of the jobs of a phase.
@@ -89,10 +89,35 @@ pub struct Limits {
     pub waiting: Vec<(JobKind, f64)>,
 }
 
-/// The number of recorded frames. The least time of each job and of the serial parts counts: what
+/// The number of recorded frames. The least time of each job and of each serial part counts: what
 /// the machine's other programs take is part of no frame, and a serial part is short enough to fall
 /// into one of their turns whole.
 const FRAMES: usize = 15;
+
+/// A frame as it was recorded.
+#[derive(Debug, Clone)]
+struct RecordedFrame {
+    phases: Vec<PhaseCosts>,
+    /// The serial parts: before each phase, and after the last.
+    serial_ns: Vec<u64>,
+}
+
+impl RecordedFrame {
+    /// The frame between two times, given the timings of its phases.
+    fn new([mut at, end]: [Instant; 2], timings: &[JobTimings]) -> Self {
+        let (mut phases, mut serial_ns) = (Vec::new(), Vec::new());
+        for phase in timings {
+            serial_ns.push(nanoseconds(&phase.start.saturating_duration_since(at)));
+            at = phase.start + phase.jobs.iter().sum::<Duration>();
+            phases.push(PhaseCosts {
+                kind: JobKind::of(phase.job_type),
+                jobs_ns: phase.jobs.iter().map(nanoseconds).collect(),
+            });
+        }
+        serial_ns.push(nanoseconds(&end.saturating_duration_since(at)));
+        Self { phases, serial_ns }
+    }
+}
 
 impl FrameCosts {
     /// Records a scene's frames on one thread, in the jobs of so many cores.
@@ -109,31 +134,18 @@ impl FrameCosts {
         prepared.draw();
         prepared.draw();
         drop(device.take_timings());
-        let frames: Vec<Self> = (0..FRAMES)
+        let frames: Vec<RecordedFrame> = (0..FRAMES)
             .map(|_| {
                 let start = Instant::now();
                 prepared.draw();
-                let total = start.elapsed();
-                let phases = device.take_timings();
-                let phases: Vec<_> = phases
-                    .iter()
-                    .map(|phase| PhaseCosts {
-                        kind: JobKind::of(phase.job_type),
-                        jobs_ns: phase.jobs.iter().map(nanoseconds).collect(),
-                    })
-                    .collect();
-                let shared = phases.iter().flat_map(|phase| &phase.jobs_ns).sum();
-                Self {
-                    phases,
-                    serial_ns: nanoseconds(&total).saturating_sub(shared),
-                }
+                RecordedFrame::new([start, Instant::now()], &device.take_timings())
             })
             .collect();
         Ok(Self::least_of(&frames))
     }
 
-    /// The least time of each job and of the serial parts over frames with equal jobs.
-    fn least_of(frames: &[Self]) -> Self {
+    /// The least time of each job and of each serial part over frames with equal jobs.
+    fn least_of(frames: &[RecordedFrame]) -> Self {
         let Some(first) = frames.first() else {
             return Self {
                 phases: Vec::new(),
@@ -143,13 +155,19 @@ impl FrameCosts {
         let mut costs = first.clone();
         for (number, phase) in costs.phases.iter_mut().enumerate() {
             for (job, cost_ns) in phase.jobs_ns.iter_mut().enumerate() {
-                let of_frame = |frame: &Self| frame.phases.get(number)?.jobs_ns.get(job).copied();
+                let of_frame =
+                    |frame: &RecordedFrame| frame.phases.get(number)?.jobs_ns.get(job).copied();
                 *cost_ns = frames.iter().filter_map(of_frame).min().unwrap_or(*cost_ns);
             }
         }
-        let serial = frames.iter().map(|frame| frame.serial_ns);
-        costs.serial_ns = serial.min().unwrap_or(costs.serial_ns);
-        costs
+        for (number, cost_ns) in costs.serial_ns.iter_mut().enumerate() {
+            let of_frame = |frame: &RecordedFrame| frame.serial_ns.get(number).copied();
+            *cost_ns = frames.iter().filter_map(of_frame).min().unwrap_or(*cost_ns);
+        }
+        Self {
+            phases: costs.phases,
+            serial_ns: costs.serial_ns.iter().sum(),
+        }
     }
 
     /// The frame time on this many cores, in nanoseconds.
@@ -310,13 +328,24 @@ mod tests {
 
     #[test]
     fn the_least_time_of_each_part_counts() {
-        let tiles = |jobs: &[u64]| [(JobKind::Tiles, jobs.to_vec())];
+        let begin = Instant::now();
+        let after = |ns| begin + Duration::from_nanos(ns);
+        let record = |from: u64, jobs: &[u64], to: u64| {
+            let timings = JobTimings {
+                job_type: "core::TileJob<'_>",
+                start: after(from),
+                jobs: jobs.iter().copied().map(Duration::from_nanos).collect(),
+            };
+            RecordedFrame::new([begin, after(to)], &[timings])
+        };
+        // Serial parts of 30 and 5, 20 and 9, 25 and 4.
         let frames = [
-            costs(30, &tiles(&[5, 90, 7])),
-            costs(20, &tiles(&[6, 9, 70])),
-            costs(200, &tiles(&[50, 10, 8])),
+            record(30, &[5, 10, 8], 58),
+            record(20, &[6, 9, 7], 51),
+            record(25, &[7, 12, 9], 57),
         ];
-        assert_eq!(FrameCosts::least_of(&frames), costs(20, &tiles(&[5, 9, 7])));
+        let least = costs(20 + 4, &[(JobKind::Tiles, vec![5, 9, 7])]);
+        assert_eq!(FrameCosts::least_of(&frames), least);
     }
 
     #[test]
