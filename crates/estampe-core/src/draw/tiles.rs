@@ -13,6 +13,7 @@ use crate::statistics::Statistics;
 use crate::tile_pass::{
     self, Clear, MAX_TARGETS, TileJobs, TilePass, TileScratch, TileStores, TileWords,
 };
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, PoisonError};
 
 /// The images that tiles are drawn into.
@@ -46,9 +47,9 @@ impl Context {
         // First of all: where memory is short, no image is taken to be drawn or resolved.
         let words = TileWords::of(target, discards);
         match target.samples() {
-            1 if !self.level.is_scalar() => memory.tiles_1.make_room(words),
-            4 if !self.level.is_scalar() => memory.tiles_4.make_room(words),
-            _ => memory.tiles_many.make_room(words),
+            1 if !self.level.is_scalar() => memory.tiles_1.make_room(executor, words),
+            4 if !self.level.is_scalar() => memory.tiles_4.make_room(executor, words),
+            _ => memory.tiles_many.make_room(executor, words),
         }?;
         let mut resolved = [None; MAX_TARGETS];
         for resolve in target.resolves.iter_mut().filter(|_| is_last) {
@@ -108,7 +109,8 @@ impl Context {
 /// Memory of the workers that draw tiles of `N` samples.
 #[derive(Debug, Default)]
 pub(super) struct TileWorkers<const N: usize> {
-    scratch: Vec<Mutex<TileScratch<N>>>,
+    /// Made by a worker when it first draws tiles of so many samples.
+    scratch: Vec<Mutex<Option<Box<TileScratch<N>>>>>,
     /// What each has room for of a tile that a pass discards.
     room: TileWords,
 }
@@ -124,15 +126,19 @@ impl<const N: usize> TileWorkers<N> {
     }
 
     /// Takes memory of each worker for so much of a tile, if the passes before needed less.
-    fn make_room(&mut self, words: TileWords) -> Result<(), RenderPassError> {
+    fn make_room(&mut self, executor: &Executor, words: TileWords) -> Result<(), RenderPassError> {
         let room = self.room.with(words);
         if room == self.room {
             return Ok(());
         }
-        for worker in &mut self.scratch {
+        let is_short = AtomicBool::new(false);
+        executor.for_each_alone(&mut self.scratch, |worker| {
             let worker = worker.get_mut().unwrap_or_else(PoisonError::into_inner);
-            let made = worker.make_room(&room);
-            made.ok_or_else(|| out_of_memory(room.bytes()))?;
+            let made = worker.get_or_insert_default().make_room(&room);
+            is_short.fetch_or(made.is_none(), Ordering::Relaxed);
+        });
+        if is_short.into_inner() {
+            return Err(out_of_memory(room.bytes()));
         }
         self.room = room;
         Ok(())
@@ -147,6 +153,7 @@ impl<const N: usize> TileWorkers<N> {
     ) -> Statistics {
         let statistics = Mutex::new(Statistics::default());
         executor.for_each_worker(jobs, &self.scratch, |next, scratch| {
+            let scratch = scratch.get_or_insert_default();
             while let Some(jobs) = next() {
                 tile_pass::draw(pass, jobs, scratch);
             }
