@@ -181,9 +181,9 @@ fn cores(results: &Results, out: &mut String) {
          Every job of a frame (runs of vertices, chunks of primitives, tiles) was timed on one core, and the schedule was\n\
          simulated with these times: in each phase helpers are woken as a tree, and each idle thread takes jobs from the\n\
          front of the remaining ones, in batches of a fourth of its share. The jobs are those of the number of cores:\n\
-         geometry goes in groups that grow with it. The parts between phases are serial. Of each job and of each serial part the\n\
-         least time of 15 frames counts, which no other program interrupted. Speed-ups are\n\
-         for helpers that are awake; in brackets for helpers that sleep before each phase, with this machine's times of\n\
+         geometry goes in groups that grow with it, and small images have smaller tiles for many. The parts between phases are\n\
+         serial. Of each job and of each serial part the least time of 15 frames counts, which no other program\n\
+         interrupted. Speed-ups are for helpers that are awake; in brackets for helpers that sleep before each phase, with this machine's times of\n\
          {:.1} µs to call one and {:.1} µs until it runs. The simulation assumes that memory is as fast for many cores as for one.\n\n\
          | scene | ms on 1 | {} measured |",
         wake_up.call_ns as f64 * 1e-3,

@@ -270,7 +270,6 @@ mod tests {
         assert!(texels.depth_texture(run).is_some());
         for grid in [grid, grid.for_threads(64)] {
             let (depths, _, bounds) = texels.tiles_mut(Some(grid));
-            depths.fill(0.5);
             let bounds = bounds.unwrap();
             for (tile, depths) in (0..).zip(depths.chunks_exact_mut(grid.tile_pixels())) {
                 let origin = grid.tile_origin(tile);
@@ -292,8 +291,8 @@ mod tests {
             for tile in 0..u32::try_from(grid.tiles()).unwrap() {
                 let (x, y) = grid.tile_origin(tile);
                 let word = map.windows()[y as usize / 4 * stride + x as usize / 4];
-                // Windows reach into the next packets: the first of a tile lies in it.
-                let depth = tile * 0x4000 / 16;
+                // The window of a tile's first packet lies in the tile; 0x8000 is a depth of 1.
+                let depth = tile * 0x8000 / 32;
                 assert_eq!(word, depth << 16 | depth, "tile {tile} of {grid:?}");
             }
         }

@@ -185,8 +185,7 @@ impl Executor {
         let run = |worker: usize| {
             work(worker, &mut || {
                 let mut left = lock(&left);
-                let turns = workers * TURNS;
-                let count = left.left().div_ceil(turns);
+                let count = left.left().div_ceil(workers * TURNS);
                 take_some(&mut *left, count)
             });
             running.fetch_sub(1, Ordering::Release);
@@ -257,8 +256,8 @@ fn pause() {
 
 /// Locks what only holds plain data: after a panic elsewhere it is as good as before. A worker's
 /// scratch is only ever locked by that worker, so that it never waits.
-pub(crate) fn lock<C>(scratch: &Mutex<C>) -> std::sync::MutexGuard<'_, C> {
-    scratch.lock().unwrap_or_else(PoisonError::into_inner)
+pub(crate) fn lock<T>(data: &Mutex<T>) -> std::sync::MutexGuard<'_, T> {
+    data.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 #[cfg(test)]
