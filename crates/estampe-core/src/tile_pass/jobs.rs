@@ -154,3 +154,46 @@ impl Jobs for TileJobs<'_> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::attachment::{ColorTexels, ImageSize};
+    use estampe_types::TextureFormat;
+
+    /// Each of four tiles holds its number in the first attachment; the second has no memory.
+    #[test]
+    fn tiles_are_taken_in_order_with_their_shares() {
+        let size = ImageSize {
+            width: 100,
+            height: 100,
+            samples: 1,
+        };
+        let mut stored = ColorTexels::zeros(TextureFormat::Rgba16Float, size).unwrap();
+        for (tile, words) in (0..).zip(stored.words.chunks_mut(64 * 64 * 2)) {
+            words.fill(tile);
+        }
+        let without = ColorTexels::without_memory(TextureFormat::Rgba8Unorm, size);
+        let mut target = RenderTarget::of_images(size, vec![stored, without], None);
+        for taken in [1, 3, usize::MAX] {
+            let (mut jobs, _) = TileJobs::of_target(&mut target, true);
+            assert_eq!(jobs.left(), 4);
+            let mut next = 0;
+            while jobs.left() > 0 {
+                let mut some = jobs.take_first(taken);
+                assert_eq!(jobs.first_tile().is_none(), jobs.left() == 0);
+                while let Some(job) = some.take_tile() {
+                    assert_eq!(job.tile, next);
+                    assert_eq!(job.colors[0].len(), 64 * 64 * 2 / LANES);
+                    assert!(job.colors[0].iter().all(|line| *line == [next; LANES]));
+                    assert!(job.colors[1].is_empty() && job.depth.is_empty());
+                    next += 1;
+                    let ahead = some.first_colors();
+                    assert!(ahead.iter().all(|line| *line == [next; LANES]));
+                    assert_eq!(ahead.is_empty(), some.left() == 0);
+                }
+            }
+            assert_eq!(next, 4);
+        }
+    }
+}
