@@ -5,6 +5,9 @@ use estampe_types::TextureFormat;
 /// Side of a storage block, in pixels.
 pub(crate) const BLOCK: u32 = 64;
 
+/// The most pixels of a target's side.
+pub(crate) const MAX_SIDE: u32 = 16_384;
+
 /// The division of a target into the tiles of a pass.
 ///
 /// A tile is 64×64 pixels for one sample, so that RGBA8 and depth fill the first-level cache, 32

@@ -1,5 +1,8 @@
 //! Bins: the entries of a chunk, sorted by the tiles that they touch.
 
+use crate::layout::{BLOCK, MAX_SIDE};
+use std::ops::Range;
+
 /// The primitives that one bin entry stands for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum BinEntry {
@@ -38,11 +41,53 @@ impl BinEntry {
     }
 }
 
+/// Tiles that follow one another in storage order. A large triangle has one for each row of tiles.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct TileSpan {
+    /// The first tile, and in the low bits how many come after it.
+    packed: u32,
+}
+
+impl TileSpan {
+    const COUNT_BITS: u32 = 10;
+
+    #[inline(always)]
+    pub(crate) fn of_tile(tile: u32) -> Self {
+        Self {
+            packed: tile << Self::COUNT_BITS,
+        }
+    }
+
+    /// As many tiles from a first one on, at least one, as a row of tiles has at most.
+    #[inline(always)]
+    pub(crate) fn new(first: u32, count: u32) -> Self {
+        debug_assert!(
+            first >> (32 - Self::COUNT_BITS) == 0 && (1..=1 << Self::COUNT_BITS).contains(&count)
+        );
+        Self {
+            packed: first << Self::COUNT_BITS | (count - 1),
+        }
+    }
+
+    #[inline(always)]
+    fn tiles(self) -> Range<u32> {
+        let first = self.packed >> Self::COUNT_BITS;
+        first..first + (self.packed & ((1 << Self::COUNT_BITS) - 1)) + 1
+    }
+}
+
+// The largest target has this many tiles of 32×32 pixels, and this many a row of 64×64.
+const _: () = {
+    let (tiles, blocks) = (MAX_SIDE.div_ceil(32), MAX_SIDE.div_ceil(BLOCK));
+    assert!(tiles as u64 * tiles as u64 <= 1 << (32 - TileSpan::COUNT_BITS));
+    assert!(blocks <= 1 << TileSpan::COUNT_BITS);
+};
+
 /// Entries sorted by tile.
 #[derive(Debug, Default)]
 pub(crate) struct Bins {
-    /// As written: (tile, entry) in submission order.
-    unsorted: Vec<(u32, BinEntry)>,
+    /// As written: tiles and their entry, in submission order.
+    unsorted: Vec<(TileSpan, BinEntry)>,
     /// Sorted by tile; the entries of a tile in submission order.
     sorted: Vec<BinEntry>,
     /// The index in `sorted` of the first entry of tile `first_tile + i`; one element more than
@@ -62,8 +107,8 @@ impl Bins {
         self.mergeable_from = 0;
     }
 
-    pub(crate) fn push(&mut self, tile: u32, entry: BinEntry) {
-        self.unsorted.push((tile, entry));
+    pub(crate) fn push(&mut self, tiles: TileSpan, entry: BinEntry) {
+        self.unsorted.push((tiles, entry));
     }
 
     /// Keeps [`Bins::push_lane`] from merging into the entries so far.
@@ -76,6 +121,7 @@ impl Bins {
     /// if there is one since [`Bins::end_packet`].
     #[inline(always)]
     pub(crate) fn push_lane(&mut self, tile: u32, new: BinEntry) {
+        let tile = TileSpan::of_tile(tile);
         for (at, entry) in self.unsorted[self.mergeable_from..].iter_mut().rev() {
             if *at == tile && entry.merge(new) {
                 return;
@@ -87,24 +133,37 @@ impl Bins {
     /// Sorts the entries by tile, stably, by counting: linear in entries and in touched tiles'
     /// span.
     pub(crate) fn sort(&mut self) {
-        let tiles = self.unsorted.iter().map(|(tile, _)| *tile);
-        let (Some(first), Some(last)) = (tiles.clone().min(), tiles.max()) else {
+        let tiles = self.unsorted.iter().map(|(tiles, _)| tiles.tiles());
+        let ends = tiles.clone().map(|tiles| tiles.end);
+        let (Some(first), Some(end)) = (tiles.map(|tiles| tiles.start).min(), ends.max()) else {
             return;
         };
         self.first_tile = first;
-        self.starts.resize((last - first) as usize + 2, 0);
-        for (tile, _) in &self.unsorted {
-            self.starts[(tile - first) as usize + 1] += 1;
+        // First the differences of the tiles' numbers of entries.
+        let tiles = (end - first) as usize;
+        self.starts.resize(tiles + 2, 0);
+        for (span, _) in &self.unsorted {
+            let Range { start, end } = span.tiles();
+            let begins = &mut self.starts[(start - first) as usize + 1];
+            *begins = begins.wrapping_add(1);
+            let ends = &mut self.starts[(end - first) as usize + 1];
+            *ends = ends.wrapping_sub(1);
         }
-        for at in 1..self.starts.len() {
-            self.starts[at] += self.starts[at - 1];
+        self.starts.truncate(tiles + 1);
+        let (mut entries, mut of_tile) = (0, 0_u32);
+        for start in &mut self.starts {
+            of_tile = of_tile.wrapping_add(*start);
+            entries += of_tile;
+            *start = entries;
         }
-        self.sorted.resize(self.unsorted.len(), BinEntry::Point(0));
+        self.sorted.resize(entries as usize, BinEntry::Point(0));
         // Each start is advanced while its tile is filled, then all are moved back by one tile.
-        for (tile, entry) in &self.unsorted {
-            let start = &mut self.starts[(tile - first) as usize];
-            self.sorted[*start as usize] = *entry;
-            *start += 1;
+        for (span, entry) in &self.unsorted {
+            let Range { start, end } = span.tiles();
+            for start in &mut self.starts[(start - first) as usize..(end - first) as usize] {
+                self.sorted[*start as usize] = *entry;
+                *start += 1;
+            }
         }
         for at in (1..self.starts.len()).rev() {
             self.starts[at] = self.starts[at - 1];
@@ -140,7 +199,7 @@ mod tests {
     fn entries_come_back_by_tile_in_order() {
         let mut bins = Bins::default();
         for (index, tile) in (0..).zip([7, 3, 7, 9, 3, 7]) {
-            bins.push(tile, BinEntry::Point(index));
+            bins.push(TileSpan::of_tile(tile), BinEntry::Point(index));
         }
         bins.sort();
         let points = |tile| -> Vec<u32> {
@@ -166,7 +225,7 @@ mod tests {
             for _ in 0..2 {
                 bins.clear();
                 for &tile in &tiles {
-                    bins.push(tile, BinEntry::Point(tile));
+                    bins.push(TileSpan::of_tile(tile), BinEntry::Point(tile));
                 }
                 bins.sort();
                 let mut reached = [0; 5];

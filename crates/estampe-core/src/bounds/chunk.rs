@@ -244,6 +244,7 @@ impl SubDrawCursor<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::bounds::bins::TileSpan;
 
     #[test]
     fn a_tiles_entries_come_run_by_run() {
@@ -252,21 +253,23 @@ mod tests {
         chunk.begin_run(7);
         for packet in 0..3 {
             chunk.triangles.push_stale();
-            chunk.bins.push(packet % 2, triangles(packet));
+            chunk
+                .bins
+                .push(TileSpan::of_tile(packet % 2), triangles(packet));
         }
         // A run of which nothing is left.
         chunk.begin_run(8);
         chunk.begin_run(9);
         chunk.triangles.push_stale();
-        chunk.bins.push(0, triangles(3));
+        chunk.bins.push(TileSpan::of_tile(0), triangles(3));
         chunk.begin_run(10);
         chunk.points.push(PointPrimitive::default());
-        chunk.bins.push(0, BinEntry::Point(0));
+        chunk.bins.push(TileSpan::of_tile(0), BinEntry::Point(0));
         chunk.begin_run(11);
         chunk.points.push(PointPrimitive::default());
-        chunk.bins.push(0, BinEntry::Point(1));
+        chunk.bins.push(TileSpan::of_tile(0), BinEntry::Point(1));
         chunk.triangles.push_stale();
-        chunk.bins.push(1, triangles(4));
+        chunk.bins.push(TileSpan::of_tile(1), triangles(4));
         chunk.bins.sort();
         let runs = |tile| -> Vec<(u32, Vec<BinEntry>)> {
             let runs = chunk.runs_of_tile(tile);

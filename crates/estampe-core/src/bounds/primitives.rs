@@ -36,6 +36,9 @@ pub(crate) struct TrianglePacket {
     pub(crate) front: u16,
     /// Bit by lane: the three 1/w are equal in bits.
     pub(crate) equal_w: u16,
+    /// Bit by lane: it is wider and higher than a block of 16×16 pixels. Known of packets that are
+    /// not taken apart.
+    pub(crate) large: u16,
     /// The number of lanes in use.
     pub(crate) len: u16,
     /// The vertex that flat varyings come from.
@@ -57,6 +60,7 @@ impl TrianglePacket {
         clockwise: 0,
         front: 0,
         equal_w: 0,
+        large: 0,
         len: 0,
         provoking: FlatVertices([VertexRef(0); LANES]),
     };

@@ -7,11 +7,14 @@
 //! packet that share a tile are found sixteen at a time and get one entry.
 
 use super::plan::GeometryPlan;
-use crate::bounds::bins::{BinEntry, Bins};
+use super::tile_edges::TileEdges;
+use crate::bounds::bins::{BinEntry, Bins, TileSpan};
 use crate::bounds::chunk::{Chunk, number};
 use crate::bounds::lines::LinePrimitive;
 use crate::bounds::primitives::{PointPrimitive, TrianglePacket};
+use crate::layout::TileGrid;
 use estampe_simd::{LANES, Lane, Lanes, SimdBase, i32x16, outline};
+use std::ops::Range;
 
 /// A half-open range of tiles.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -115,7 +118,7 @@ fn bin_lanes<'a, S: Lanes>(
         let lanes = s.bits_of_mask(shares) & rest;
         rest &= !lanes;
         let tile = plan.grid.tile_at(x.cast_unsigned(), y.cast_unsigned());
-        bins.push(tile, entry(lanes));
+        bins.push(TileSpan::of_tile(tile), entry(lanes));
     }
     if one_by_one != 0 {
         let (right, bottom) = (ranges.x1.to_array(), ranges.y1.to_array());
@@ -150,25 +153,42 @@ fn bin_range(
     let edges = triangle
         .filter(|_| columns > 1 && rows > 1)
         .map(|(packet, lane)| TileEdges::new(packet, lane, plan.sample_range));
-    let misses = |x, y| {
-        let edges = edges.as_ref();
-        edges.is_some_and(|edges| edges.miss(x, y, plan.grid.tile_log2()))
-    };
+    let grid = plan.grid;
     for y in range.y0..range.y1 {
-        for x in range.x0..range.x1 {
-            if misses(x, y) {
+        let columns = range.x0..range.x1;
+        if many {
+            let columns = match &edges {
+                Some(edges) => edges.columns(y, columns, grid.tile_log2()),
+                None => columns,
+            };
+            push_row(grid, y, columns, entry, bins);
+            continue;
+        }
+        for x in columns {
+            let edges = edges.as_ref();
+            if edges.is_some_and(|edges| edges.miss(x, y, grid.tile_log2())) {
                 continue;
             }
-            let tile = plan.grid.tile_at(x.cast_unsigned(), y.cast_unsigned());
-            if many {
-                bins.push(tile, entry);
-            } else {
-                bins.push_lane(tile, entry);
-            }
+            let tile = grid.tile_at(x.cast_unsigned(), y.cast_unsigned());
+            bins.push_lane(tile, entry);
         }
     }
     if many {
         bins.end_packet();
+    }
+}
+
+/// Adds an entry to some columns of a row of tiles.
+fn push_row(grid: TileGrid, row: i32, columns: Range<i32>, entry: BinEntry, bins: &mut Bins) {
+    if columns.is_empty() {
+        return;
+    }
+    let tile = |column: i32| grid.tile_at(column.cast_unsigned(), row.cast_unsigned());
+    if grid.tiles_are_blocks() {
+        let count = (columns.end - columns.start).cast_unsigned();
+        bins.push(TileSpan::new(tile(columns.start), count), entry);
+    } else {
+        columns.for_each(|column| bins.push(TileSpan::of_tile(tile(column)), entry));
     }
 }
 
@@ -253,10 +273,7 @@ pub(crate) fn push_point(plan: &GeometryPlan, point: PointPrimitive, chunk: &mut
     };
     chunk.statistics.primitives_binned += 1;
     for y in range.y0..range.y1 {
-        for x in range.x0..range.x1 {
-            let tile = plan.grid.tile_at(x.cast_unsigned(), y.cast_unsigned());
-            chunk.bins.push(tile, entry);
-        }
+        push_row(plan.grid, y, range.x0..range.x1, entry, &mut chunk.bins);
     }
 }
 
@@ -278,55 +295,11 @@ impl TileRange {
     }
 }
 
-/// The edges of one triangle, to tell tiles of its box that it misses. Exact in 64 bits.
-struct TileEdges {
-    /// For each edge the values at a point: `a·x + b·y + c`, in 1/256 pixel; inside is ≥ 0.
-    edges: [[i64; 3]; 3],
-    sample_range: [i32; 2],
-}
-
-impl TileEdges {
-    fn new(packet: &TrianglePacket, lane: Lane, sample_range: [i32; 2]) -> Self {
-        let at = |corner: usize| {
-            (
-                i64::from(lane.of(&packet.x[corner])),
-                i64::from(lane.of(&packet.y[corner])),
-            )
-        };
-        let ends = if lane.is_in(packet.clockwise) {
-            [(0, 1), (1, 2), (2, 0)]
-        } else {
-            [(0, 2), (2, 1), (1, 0)]
-        };
-        let edge = |(from, to)| {
-            let ((ax, ay), (bx, by)) = (at(from), at(to));
-            [ay - by, bx - ax, (by - ay) * ax - (bx - ax) * ay]
-        };
-        Self {
-            edges: ends.map(edge),
-            sample_range,
-        }
-    }
-
-    /// Returns true if no sample of the tile can be inside the triangle.
-    fn miss(&self, column: i32, row: i32, tile_log2: u32) -> bool {
-        let [first, last] = self.sample_range;
-        let low = |tile: i32| i64::from((tile << (tile_log2 + 8)) + first);
-        let high = |tile: i32| i64::from(((tile + 1) << (tile_log2 + 8)) - 256 + last);
-        self.edges.iter().any(|[a, b, c]| {
-            let x = if *a > 0 { high(column) } else { low(column) };
-            let y = if *b > 0 { high(row) } else { low(row) };
-            a * x + b * y + c < 0
-        })
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::bounds::pixel_rect::PixelRect;
     use crate::geometry::plan::TargetGeometry;
-    use crate::layout::TileGrid;
     use estampe_simd::{Level, dispatch};
     use estampe_types::state::{DepthBiasState, PrimitiveState, Viewport};
 

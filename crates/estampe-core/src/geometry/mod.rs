@@ -6,8 +6,9 @@
 //! joins vertices into primitives, in [`groups`] of sixteen, for each [`run`]; [`cull`] drops most
 //! triangles ([`facing`] says which side is culled); [`setup`] sorts vertices ([`vertex_order`]),
 //! drops triangles that cover no sample ([`cull_uncovered`]), lets sixteen gather ([`waiting`]),
-//! makes planes and moves those of depth ([`depth_bias`]); [`binning`] finds tiles. [`filled`] is
-//! the loop over these, and [`chunk`] its entry. [`ahead`] prefetches what comes next.
+//! makes planes and moves those of depth ([`depth_bias`]); [`binning`] finds tiles, those
+//! of large triangles by [`tile_edges`]. [`filled`] is the loop over these, and [`chunk`] its
+//! entry. [`ahead`] prefetches what comes next.
 //!
 //! The exceptions: [`restart`] assembles primitives where indices may end them; [`clip_detour`]
 //! takes the few primitives that leave the view volume through [`clip`], with positions and
@@ -51,6 +52,7 @@ mod rectangles;
 pub(crate) mod setup;
 
 pub(crate) mod binning;
+mod tile_edges;
 
 mod filled;
 mod gathered;

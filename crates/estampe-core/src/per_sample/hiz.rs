@@ -112,27 +112,29 @@ impl HierarchicalZ {
         dispatch!(level, s => self.classify_lanes::<_, N>(s, look, (compare, or_equal), stored))
     }
 
-    /// Returns true if no sample of a triangle can pass anywhere in the tile, given its
-    /// [nearest](HizQuery::nearest) depth. Where order does not decide between equal depths,
-    /// `or_equal` says that those may pass. Returns false where bounds are out of date.
+    /// The depth from which on triangles are hidden in all of the tile. Where order does not decide
+    /// between equal depths, `or_equal` says that those may pass.
     #[inline]
-    pub(crate) fn hides(&self, nearest: f32, compare: CompareFunction, or_equal: bool) -> bool {
-        if self.stale != 0 || !orders(compare) {
-            return false;
-        }
-        let strict = or_equal
+    pub(crate) fn hidden_from(&self, compare: CompareFunction, or_equal: bool) -> HiddenFrom {
+        let is_less = prefers_less(compare);
+        let passes_equal = or_equal
             || matches!(
                 compare,
                 CompareFunction::LessEqual | CompareFunction::GreaterEqual
             );
         let [least, greatest] = self.tile;
-        let is_less = prefers_less(compare);
-        let is_behind = if is_less {
-            nearest > greatest
-        } else {
-            nearest < least
-        };
-        is_behind || !strict && nearest == if is_less { greatest } else { least }
+        // Bounds that are out of date hide nothing.
+        let is_known = self.stale == 0 && orders(compare);
+        HiddenFrom {
+            depth: match (is_less, is_known) {
+                (true, true) => greatest,
+                (true, false) => f32::INFINITY,
+                (false, true) => least,
+                (false, false) => f32::NEG_INFINITY,
+            },
+            is_less,
+            with_equal: is_known && !passes_equal,
+        }
     }
 
     /// Finds the range of the tile, after that of some blocks has changed.
@@ -243,6 +245,30 @@ impl HierarchicalZ {
     }
 }
 
+/// The depth from which on triangles are hidden: see [`HierarchicalZ::hidden_from`].
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct HiddenFrom {
+    depth: f32,
+    /// True if lesser depths are nearer.
+    is_less: bool,
+    /// True if an equal depth is hidden, too.
+    with_equal: bool,
+}
+
+impl HiddenFrom {
+    /// Returns true if no sample of a triangle can pass anywhere in the tile, given the depth, as
+    /// it is stored, that none of them is nearer than.
+    #[inline(always)]
+    pub(crate) fn hides(self, nearest: f32) -> bool {
+        let is_behind = if self.is_less {
+            nearest > self.depth
+        } else {
+            nearest < self.depth
+        };
+        is_behind || self.with_equal && nearest == self.depth
+    }
+}
+
 /// A triangle in a tile, as hierarchical z looks at it.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct HizQuery<'a, const N: usize> {
@@ -273,30 +299,6 @@ fn extreme<S: Lanes, const N: usize>(s: S, look: &HizQuery<'_, N>, least: bool) 
     })
 }
 
-impl<const N: usize> HizQuery<'_, N> {
-    /// The depth, as it is stored, that no sample of the triangle in the tile is nearer than; the
-    /// comparison orders depths. Of the plane's nearest corner alone, which is quick for the many
-    /// triangles that something in front hides.
-    #[inline]
-    pub(crate) fn nearest(&self, compare: CompareFunction) -> f32 {
-        let side = self.tile.side();
-        let is_less = prefers_less(compare);
-        let DepthPlane { origin, z } = &self.plane;
-        let positions = self.samples.subpixels();
-        let nearest = |slope: f32, axis: usize, tile: i32, origin: f32| {
-            (tile as f32 + corner(&positions, axis, slope, is_less, side)) - origin
-        };
-        let x = nearest(z.dx, 0, self.tile.x, origin.x);
-        let y = nearest(z.dy, 1, self.tile.y, origin.y);
-        let [low, high] = self.tests.stored.range;
-        let depth = z.origin + (x * z.dx + y * z.dy);
-        // As lanes are clamped: NaN becomes the lower end.
-        let depth = if depth > low { depth } else { low };
-        let depth = if depth < high { depth } else { high };
-        self.tests.stored.format.stored(depth)
-    }
-}
-
 /// Where in a square of `side` pixels, on an axis, a plane is least (or greatest) at a sample: at
 /// the first sample where it rises, at the last where it falls.
 #[inline(always)]
@@ -316,14 +318,14 @@ pub(super) fn corner<const N: usize>(
 
 /// The least offset of a sample in its pixel, on an axis.
 #[inline(always)]
-fn least_offset<const N: usize>(positions: &[[i32; 2]; N], axis: usize) -> f32 {
+pub(crate) fn least_offset<const N: usize>(positions: &[[i32; 2]; N], axis: usize) -> f32 {
     let offsets = positions.iter().map(|position| position[axis]);
     offsets.fold(256, i32::min) as f32 * (1.0 / 256.0)
 }
 
 /// The greatest offset of a sample in its pixel, on an axis.
 #[inline(always)]
-fn greatest_offset<const N: usize>(positions: &[[i32; 2]; N], axis: usize) -> f32 {
+pub(crate) fn greatest_offset<const N: usize>(positions: &[[i32; 2]; N], axis: usize) -> f32 {
     let offsets = positions.iter().map(|position| position[axis]);
     offsets.fold(0, i32::max) as f32 * (1.0 / 256.0)
 }
@@ -342,74 +344,32 @@ pub(super) fn starts_of_units<S: Lanes>(s: S, side: u8) -> [f32x16<S>; 2] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::depth_format::{DepthFormat, StoredDepth};
-    use estampe_types::state::DepthState;
 
-    const TILE: TileShape = TileShape {
-        x: 64,
-        y: 128,
-        log2: 6,
-    };
-
-    /// Of random planes: no pixel of the tile is nearer than the nearest depth, and a tile whose
-    /// depths are all nearer than that hides the triangle.
     #[test]
-    fn no_pixel_is_nearer_than_the_nearest_depth() {
-        let mut state = 5u32;
-        let mut random = || {
-            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-            (state >> 8) as f32 / 16_777_216.0 - 0.5
+    fn a_tile_hides_what_is_behind_all_of_its_depths() {
+        use CompareFunction::{Always, Greater, GreaterEqual, Less, LessEqual};
+        let tile = TileShape {
+            x: 64,
+            y: 128,
+            log2: 6,
         };
-        for compare in [CompareFunction::Less, CompareFunction::GreaterEqual] {
-            for _ in 0..200 {
-                let tests = SampleTests {
-                    bounds: None,
-                    stencil: None,
-                    depth: Some(DepthState {
-                        write_enabled: true,
-                        compare,
-                    }),
-                    stored: StoredDepth {
-                        range: [0.0, 1.0],
-                        format: DepthFormat::Float,
-                    },
-                };
-                let z = Plane {
-                    origin: random() + 0.5,
-                    dx: random() / 64.0,
-                    dy: random() / 64.0,
-                };
-                let look = HizQuery {
-                    tests: &tests,
-                    plane: DepthPlane {
-                        origin: PlaneOrigin { x: 90.5, y: 140.25 },
-                        z,
-                    },
-                    tile: TILE,
-                    samples: SampleSet::<1>::new(1),
-                    passes_in_vain: false,
-                };
-                let nearest = look.nearest(compare);
-                for pixel in 0..64 * 64 {
-                    let x = (TILE.x + pixel % 64) as f32 + 0.5 - 90.5;
-                    let y = (TILE.y + pixel / 64) as f32 + 0.5 - 140.25;
-                    let depth = (z.origin + (x * z.dx + y * z.dy)).clamp(0.0, 1.0);
-                    match prefers_less(compare) {
-                        true => assert!(depth >= nearest, "{depth} {nearest} {look:?}"),
-                        false => assert!(depth <= nearest, "{depth} {nearest} {look:?}"),
-                    }
-                }
-                let toward_viewer = if prefers_less(compare) { -0.01 } else { 0.01 };
-                let mut hiz = HierarchicalZ::default();
-                hiz.begin(TILE, Some(nearest + toward_viewer));
-                assert!(hiz.hides(nearest, compare, true), "{look:?}");
-                hiz.begin(TILE, Some(nearest - toward_viewer));
-                assert!(!hiz.hides(nearest, compare, true), "{look:?}");
-                // What was written since is not known.
-                hiz.begin(TILE, Some(nearest + toward_viewer));
-                hiz.invalidate(1);
-                assert!(!hiz.hides(nearest, compare, true), "{look:?}");
-            }
+        let mut hiz = HierarchicalZ::default();
+        let hides = |hiz: &HierarchicalZ, compare, or_equal| {
+            let hidden = hiz.hidden_from(compare, or_equal);
+            [0.49, 0.5, 0.51].map(|nearest| hidden.hides(nearest))
+        };
+        hiz.begin(tile, Some(0.5));
+        assert_eq!(hides(&hiz, Less, false), [false, true, true]);
+        assert_eq!(hides(&hiz, Less, true), [false, false, true]);
+        assert_eq!(hides(&hiz, LessEqual, false), [false, false, true]);
+        assert_eq!(hides(&hiz, Greater, false), [true, true, false]);
+        assert_eq!(hides(&hiz, Greater, true), [true, false, false]);
+        assert_eq!(hides(&hiz, GreaterEqual, false), [true, false, false]);
+        assert_eq!(hides(&hiz, Always, false), [false; 3]);
+        // What was written since is not known.
+        hiz.invalidate(1);
+        for compare in [Less, LessEqual, Greater, GreaterEqual] {
+            assert_eq!(hides(&hiz, compare, false), [false; 3]);
         }
     }
 }

@@ -4,7 +4,6 @@
 //! and so are those that a worker takes. A list of all tiles would be made by one thread while all
 //! others wait.
 
-use super::next_tile::NextTile;
 use super::{MAX_TARGETS, TileJob, TileStores};
 use crate::attachment::{RenderTarget, StoredRows};
 use crate::layout::texel_words;
@@ -16,6 +15,8 @@ use std::ops::Range;
 #[derive(Debug, Default)]
 pub(crate) struct TileJobs<'a> {
     tiles: Range<u32>,
+    /// Colour attachments.
+    targets: usize,
     colors: [TilePackets<'a, u32>; MAX_TARGETS],
     depth: TilePackets<'a, f32>,
     stencil: TilePackets<'a, u8>,
@@ -72,6 +73,7 @@ impl<'a> TileJobs<'a> {
         let elements = grid.tile_pixels() * target.samples() as usize;
         let mut jobs = Self {
             tiles: 0..u32::try_from(grid.tiles()).unwrap_or(u32::MAX),
+            targets: target.colors.len(),
             ..Self::default()
         };
         for (packets, color) in jobs.colors.iter_mut().zip(&mut target.colors) {
@@ -100,17 +102,22 @@ impl<'a> TileJobs<'a> {
 
     /// Takes the first tile off.
     pub(super) fn take_tile(&mut self) -> Option<TileJob<'a>> {
-        (!self.tiles.is_empty()).then(|| {
-            let first = self.take_first(1);
-            TileJob {
-                tile: first.tiles.start,
-                colors: first.colors.map(|color| color.packets),
-                depth: first.depth.packets,
-                stencil: first.stencil.packets,
-                resolved: first.resolved.map(|image| image.packets.as_flattened_mut()),
-                next: NextTile::default(),
-            }
-        })
+        let tile = self.tiles.next()?;
+        let mut job = TileJob {
+            tile,
+            depth: self.depth.take_first(1).packets,
+            stencil: self.stencil.take_first(1).packets,
+            ..TileJob::default()
+        };
+        // The others are empty.
+        let of_targets = job.colors.iter_mut().zip(&mut self.colors);
+        let images = job.resolved.iter_mut().zip(&mut self.resolved);
+        for ((colors, of_color), (resolved, of_image)) in of_targets.zip(images).take(self.targets)
+        {
+            *colors = of_color.take_first(1).packets;
+            *resolved = of_image.take_first(1).packets.as_flattened_mut();
+        }
+        Some(job)
     }
 
     /// The number of the first tile.
@@ -144,6 +151,7 @@ impl Jobs for TileJobs<'_> {
         self.tiles.start += u32::try_from(tiles).unwrap_or(u32::MAX);
         Self {
             tiles: start..self.tiles.start,
+            targets: self.targets,
             colors: self.colors.each_mut().map(|color| color.take_first(tiles)),
             depth: self.depth.take_first(tiles),
             stencil: self.stencil.take_first(tiles),

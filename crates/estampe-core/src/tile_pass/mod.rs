@@ -34,8 +34,7 @@ use crate::per_sample::hiz::HierarchicalZ;
 use crate::plan::tile_plan::TilePlan;
 use crate::raster::{MAX_PACKETS, SampleSet, TileShape};
 use crate::statistics::Statistics;
-use crate::tile_path::TilePath;
-use estampe_simd::{LANES, Level};
+use estampe_simd::{LANES, Level, dispatch, outline};
 use estampe_types::TextureFormat;
 use in_order::FragmentsTo;
 use next_tile::NextTile;
@@ -208,7 +207,7 @@ fn draw_chunks<const N: usize>(
     for number in pass.chunk_index.of_tile(job.tile) {
         for (sub_draw, entries) in pass.chunks[number as usize].runs_of_tile(job.tile) {
             let work = TileWork::new(pass, [number, sub_draw], job.tile);
-            scratch.count(work.plan.path, entries);
+            scratch.count(&work, entries);
             if work.plan.path.is_visibility() {
                 in_order::finish(pass, job, scratch);
                 let job = (&mut *job, &mut packets_ahead);
@@ -300,9 +299,13 @@ impl<const N: usize> TileScratch<N> {
     }
 
     /// Counts the primitives of a path.
-    fn count(&mut self, path: TilePath, entries: &[BinEntry]) {
-        let counts = entries.iter().map(|entry| u64::from(entry.count()));
-        self.statistics.paths.add(path, counts.sum());
+    fn count(&mut self, work: &TileWork<'_>, entries: &[BinEntry]) {
+        // As lane code, because processors without SIMD levels count bits in many steps.
+        let count = dispatch!(work.level, s => outline!(s, {
+            let counts = entries.iter().map(|entry| u64::from(entry.count()));
+            counts.sum::<u64>()
+        }));
+        self.statistics.paths.add(work.plan.path, count);
     }
 }
 

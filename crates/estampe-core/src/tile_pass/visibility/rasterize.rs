@@ -8,7 +8,7 @@ use super::{Ahead, ONLY_WIDE};
 use crate::bounds::bins::BinEntry;
 use crate::bounds::primitives::TrianglePacket;
 use crate::fragment::interpolate::{DepthPlane, VaryingSource};
-use crate::per_sample::hiz::{BlockClasses, HizQuery};
+use crate::per_sample::hiz::{BlockClasses, HierarchicalZ, HizQuery};
 use crate::per_sample::packet_ranges::PacketRanges;
 use crate::plan::tile_plan::TilePlan;
 use crate::raster::SampleSet;
@@ -73,11 +73,13 @@ pub(super) fn rasterize_waiting<const N: usize>(
     let order = waiting.sort();
     let mut work: Option<TileWork<'_>> = None;
     let is_any_order = order == OrderKind::NearestFirst;
-    for waiting_triangle in waiting.triangles() {
-        let WaitingTriangle { nearest, id, .. } = *waiting_triangle;
-        if scratch.hiz.hides(nearest, waiting.compare(), is_any_order) {
+    let hidden_from = |hiz: &HierarchicalZ| hiz.hidden_from(waiting.compare(), is_any_order);
+    let mut hidden = hidden_from(&scratch.hiz);
+    for WaitingTriangle { nearest, id, .. } in waiting.triangles() {
+        if hidden.hides(*nearest) {
             continue;
         }
+        let id = *id;
         let triangle = scratch.visibility.buffer.triangles[id as usize];
         let run = [triangle.chunk, triangle.sub_draw];
         let work = match &mut work {
@@ -86,6 +88,7 @@ pub(super) fn rasterize_waiting<const N: usize>(
         };
         let mut rasterizer = Rasterizer::new(pass, work, order, job, scratch);
         rasterizer.waiting(triangle.packet, triangle.lane, id);
+        hidden = hidden_from(&scratch.hiz);
     }
     waiting.clear();
     scratch.visibility.waiting = waiting;

@@ -1,14 +1,13 @@
 //! Large triangles nearest first, where the order does not matter: they wait, over all draws in a
 //! row whose depth test is the same, and are then rasterized by depth.
 
+use super::packet_depths::PacketDepths;
 use crate::bounds::bins::BinEntry;
-use crate::bounds::primitives::TrianglePacket;
-use crate::fragment::interpolate::DepthPlane;
 use crate::per_sample::compare::{orders, prefers_less};
-use crate::per_sample::hiz::HizQuery;
 use crate::raster::SampleSet;
 use crate::tile_pass::TileWork;
 use crate::tile_path::TilePath;
+use estampe_simd::LANES;
 use estampe_types::state::{CompareFunction, DepthState};
 
 /// Triangles that wait at most: to sort more costs more than it saves.
@@ -81,23 +80,26 @@ impl WaitingTriangles {
             return false;
         }
         self.compare = compare;
-        let half = work.shape.side() as f32 * 0.5;
-        let middle = [work.shape.x as f32 + half, work.shape.y as f32 + half];
+        let nearer_is_less = prefers_less(compare);
+        let tile = (work.shape, samples);
+        let test = (work.plan.tests.stored, compare);
+        let mut of_packet: Option<(u32, PacketDepths)> = None;
+        self.triangles.reserve(entries.len());
         for (id, entry) in (first..).zip(entries) {
-            let (packet, lane) = triangle_of(work, entry);
-            let query = HizQuery {
-                tests: &work.plan.tests,
-                plane: DepthPlane::of_lane(packet, lane),
-                tile: work.shape,
-                samples,
-                passes_in_vain: false,
+            let (packet, lanes) = triangles_of(entry);
+            let depths = match &of_packet {
+                Some((number, depths)) if *number == packet => depths,
+                _ => {
+                    let triangles = &work.chunk.triangles[packet as usize];
+                    let depths = PacketDepths::new(work.level, triangles, tile, test);
+                    &of_packet.insert((packet, depths)).1
+                }
             };
-            let DepthPlane { origin, z } = &query.plane;
-            let depth = z.origin + ((middle[0] - origin.x) * z.dx + (middle[1] - origin.y) * z.dy);
-            let nearer_is_less = prefers_less(compare);
+            let lane = lanes.trailing_zeros() as usize % LANES;
+            let depth = depths.middle[lane];
             self.triangles.push(WaitingTriangle {
                 key: if nearer_is_less { depth } else { -depth },
-                nearest: query.nearest(compare),
+                nearest: depths.nearest[lane],
                 id,
             });
         }
@@ -142,28 +144,17 @@ pub(in crate::tile_pass::visibility) fn may_wait(
         && work.plan.tests.depth.as_ref().is_some_and(tests)
         && work.plan.tests_depth_alone()
         && entries.len() <= MAX_WAITING
-        && entries.iter().all(|entry| match entry {
-            BinEntry::Triangles { lanes, .. } if lanes.is_power_of_two() => {
-                let (packet, lane) = triangle_of(work, entry);
-                is_large(packet, lane)
-            }
-            _ => false,
+        && entries.iter().all(|entry| {
+            let (packet, lanes) = triangles_of(entry);
+            lanes.is_power_of_two() && work.chunk.triangles[packet as usize].large & lanes != 0
         })
 }
 
-/// The triangle of an entry of one triangle.
-fn triangle_of<'a>(work: &TileWork<'a>, entry: &BinEntry) -> (&'a TrianglePacket, usize) {
+/// The packet and the lanes of an entry.
+#[inline(always)]
+fn triangles_of(entry: &BinEntry) -> (u32, u16) {
     let BinEntry::Triangles { packet, lanes } = *entry else {
         unreachable!("lines and points are drawn in order");
     };
-    let packet = &work.chunk.triangles[packet as usize];
-    (packet, lanes.trailing_zeros() as usize)
-}
-
-/// Returns true if a triangle is higher and wider than a block of 16×16 pixels.
-fn is_large(packet: &TrianglePacket, lane: usize) -> bool {
-    const BLOCK_SUBPIXELS: i32 = 16 * 256;
-    let x = [packet.x[0][lane], packet.x[1][lane], packet.x[2][lane]];
-    let (low, high) = (x[0].min(x[1]).min(x[2]), x[0].max(x[1]).max(x[2]));
-    high - low > BLOCK_SUBPIXELS && packet.y[2][lane] - packet.y[0][lane] > BLOCK_SUBPIXELS
+    (packet, lanes)
 }
