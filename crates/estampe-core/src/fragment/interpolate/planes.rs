@@ -102,6 +102,13 @@ impl DepthPlane {
         }
     }
 
+    /// True if it has the same bits at every pixel: products of distances are zeros, whose sign
+    /// tells only in a sum with another zero.
+    #[inline(always)]
+    pub(crate) fn is_level(&self) -> bool {
+        self.z.dx == 0.0 && self.z.dy == 0.0 && self.z.origin != 0.0
+    }
+
     /// That of a packet's triangle: few of the triangle's values, each of which is in a cache line
     /// of its own.
     #[inline(always)]

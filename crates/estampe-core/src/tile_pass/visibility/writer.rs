@@ -265,6 +265,13 @@ impl<'a, const N: usize> VisibilityWriter<'a, N> {
                 let first = self.line_of(block as usize * LANES, sample);
                 let (lines, step) = (&mut self.depth[first..], self.samples.count());
                 let lines = &mut lines[..(LANES - 1) * step + 1];
+                if triangle.plane.is_level() {
+                    let z = block_depth(s, stored, &depths, 0, needs_clamp);
+                    for line in lines.iter_mut().step_by(step) {
+                        z.store_array(line);
+                    }
+                    continue;
+                }
                 for packet in 0..LANES {
                     let z = block_depth(s, stored, &depths, packet, needs_clamp);
                     z.store_array(&mut lines[packet * step]);

@@ -268,7 +268,6 @@ impl<'a, 'j, 't, const N: usize> Resolver<'a, 'j, 't, N> {
         let lines = lines.min(MOST_AHEAD);
         for (from, mut packets) in (0..).step_by(64).zip(packets) {
             while packets != 0 {
-                self.job.next.step(s, lines);
                 let number = from + packets.trailing_zeros() as usize;
                 #[expect(clippy::cast_possible_truncation, reason = "a tile has 256 packets")]
                 let packet = number as u16;
@@ -283,6 +282,7 @@ impl<'a, 'j, 't, const N: usize> Resolver<'a, 'j, 't, N> {
                     packets &= !block;
                     continue;
                 }
+                self.job.next.step(s, lines);
                 if let Some(id) = single
                     && group.ids.contains(&id)
                     && is_whole
