@@ -110,6 +110,17 @@ impl<'a> DrawList<'a> {
         self.len() == 0
     }
 
+    /// Returns true if the draws have few elements, of all instances: as many as two rectangles,
+    /// as those of filters do.
+    pub(crate) fn has_few_elements(self) -> bool {
+        const FEW_DRAWS: usize = 4;
+        const FEW_ELEMENTS: u64 = 12;
+        let len = |range: &Range<u32>| u64::from(range.end.saturating_sub(range.start));
+        let elements = |draw: &Draw<'_>| len(&draw.elements).saturating_mul(len(&draw.instances));
+        self.len() <= FEW_DRAWS
+            && self.iter().map(elements).fold(0, u64::saturating_add) <= FEW_ELEMENTS
+    }
+
     /// The draws, in order.
     #[must_use]
     pub fn iter(self) -> DrawIter<'a> {

@@ -48,6 +48,19 @@ impl TileGrid {
         if tiles * 3 >= taken * 2 {
             return self;
         }
+        self.of_small_tiles()
+    }
+
+    /// [`TileGrid::for_threads`] for a pass of few primitives, as of filters: smaller tiles cost
+    /// hardly more then, so that there are eight a thread.
+    pub(crate) fn for_threads_with_few_primitives(self, threads: usize) -> Self {
+        if threads == 1 || self.tiles() >= 8 * threads {
+            return self;
+        }
+        self.of_small_tiles()
+    }
+
+    fn of_small_tiles(self) -> Self {
         Self {
             tile_log2: 5,
             ..self
@@ -157,6 +170,11 @@ mod tests {
         let of_9 = [1, 2, 4, 5, 6, 7, 8, 9, 13, 14].map(|threads| tiles(192, threads));
         assert_eq!(of_9, [9, 9, 9, 9, 9, 36, 36, 9, 9, 36]);
         assert_eq!([1, 2, 64].map(|threads| tiles(1, threads)), [1, 4, 4]);
+        let tiles = |threads| {
+            let grid = TileGrid::new(256, 256, 4);
+            grid.for_threads_with_few_primitives(threads).tiles()
+        };
+        assert_eq!([1, 2, 3, 64].map(tiles), [16, 16, 64, 64]);
     }
 
     #[test]

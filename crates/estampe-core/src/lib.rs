@@ -57,6 +57,7 @@ pub mod draw;
 pub mod profile;
 mod recycle;
 mod schedule;
+mod segments;
 pub mod statistics;
 mod tile_pass;
 pub mod tile_path;

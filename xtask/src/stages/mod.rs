@@ -27,6 +27,7 @@ const LAYERS: &[&[&str]] = &[
         "pipeline",
         "profile",
         "recycle",
+        "segments",
         "statistics",
         "tile_path",
     ],
@@ -46,6 +47,7 @@ const LAYERS: &[&[&str]] = &[
     &["geometry::cull", "geometry::cull_uncovered"],
     &[
         "geometry::vertex_order",
+        "geometry::tile_edges",
         "geometry::waiting",
         "geometry::rectangles",
     ],

@@ -210,8 +210,13 @@ impl RenderTarget {
     }
 
     /// Divides the target into tiles for a pass that so many threads draw.
-    pub(crate) fn divide_for(&mut self, threads: usize) {
-        self.grid = self.size.grid().for_threads(threads);
+    pub(crate) fn divide_for(&mut self, threads: usize, has_few_primitives: bool) {
+        let grid = self.size.grid();
+        self.grid = if has_few_primitives {
+            grid.for_threads_with_few_primitives(threads)
+        } else {
+            grid.for_threads(threads)
+        };
     }
 
     /// The tiles of the pass at hand.

@@ -44,7 +44,12 @@ impl ChunkIndex {
                 for (row, reached) in square.iter_mut().zip(words) {
                     *row = *reached;
                 }
-                if square != [0; 64] {
+                if chunks == 1 {
+                    let of_one = square[0];
+                    for (tile, bits) in square.iter_mut().enumerate() {
+                        *bits = of_one >> tile & 1;
+                    }
+                } else if square != [0; 64] {
                     transpose(&mut square);
                 }
                 let first = of_tiles * 64 * self.words_each + word;

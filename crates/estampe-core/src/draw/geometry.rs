@@ -44,7 +44,7 @@ impl Context {
         }
         let size = part_size(batch.group.count, executor.threads(), VERTEX_CHUNK);
         let out = memory.vertices.of_group_mut(&batch.group);
-        let sub_draws = (&batch.group, &batch.sub_draws[group.clone()]);
+        let sub_draws = (&batch.group, (&batch.sub_draws, group.clone()));
         let jobs = VertexJobs {
             plan: is_job.then_some(&mut memory.chunk_plan),
             runs: VertexRuns::new(sub_draws, size, out),

@@ -19,6 +19,7 @@ use crate::plan::tile_plan::{TilePlan, TileState};
 use crate::profile::JobTimings;
 use crate::raster::MAX_SAMPLES;
 use crate::schedule::{Awake, Executor, ThreadError, ThreadPool};
+use crate::segments::Segments;
 use crate::statistics::Statistics;
 use crate::tile_pass::Clear;
 use estampe_simd::Level;
@@ -77,7 +78,7 @@ struct Lists {
     parts: Vec<DrawBatch<'static>>,
     chunk_jobs: Vec<ChunkJob<'static>>,
     tile_states: Vec<TileState<'static>>,
-    plans: Vec<TilePlan<'static>>,
+    plans: Segments<TilePlan<'static>>,
 }
 
 impl Context {
@@ -207,7 +208,7 @@ impl Context {
         for rows in &mut target.rows {
             rows.is_done = false;
         }
-        target.divide_for(executor.threads());
+        target.divide_for(executor.threads(), pass.draws.has_few_elements());
         let parts = std::mem::take(&mut memory.lists.parts);
         let parts = parts.into_iter().map(DrawBatch::recycled).collect();
         let mut cursor = DrawCursor::new(pass.draws, self.level, parts);

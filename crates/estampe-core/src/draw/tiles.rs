@@ -70,7 +70,7 @@ impl Context {
         };
         let mut states = recycled(std::mem::take(&mut memory.lists.tile_states));
         batch.tile_states(&facts, &mut states);
-        let mut plans = recycled(std::mem::take(&mut memory.lists.plans));
+        let mut plans = std::mem::take(&mut memory.lists.plans).recycled();
         batch.tile_plans(executor, (&states, &memory.vertices), &mut plans);
         let (grid, size) = (target.grid(), target.size);
         let keeps_depths = is_last && !discards.depth_stencil;
@@ -100,7 +100,7 @@ impl Context {
         if grid != size.grid() {
             statistics.tiles_for_threads += grid.tiles() as u64;
         }
-        memory.lists.plans = recycled(plans);
+        memory.lists.plans = plans.recycled();
         memory.lists.tile_states = recycled(states);
         Ok(statistics)
     }

@@ -7,6 +7,7 @@ use crate::bounds::chunk::number;
 use crate::geometry::shaded_vertices::{GroupVertices, ShadedSlice, VertexSpan};
 use crate::plan::chunk_plan::ChunkPlan;
 use crate::schedule::Jobs;
+use crate::segments::Segments;
 use std::ops::Range;
 
 /// The jobs of the first half of geometry.
@@ -20,8 +21,9 @@ pub(super) struct VertexJobs<'a, S> {
 /// Vertices that follow one another, and the memory that they are shaded into.
 #[derive(Debug)]
 pub(super) struct VertexRuns<'a, S> {
-    /// The sub-draws of the whole group.
-    sub_draws: &'a [S],
+    /// The sub-draws of the batch, and the numbers of those of the group.
+    sub_draws: &'a Segments<S>,
+    group: (usize, usize),
     /// The vertices that are left, counted in the group.
     vertices: Range<usize>,
     /// Vertices of a run.
@@ -43,12 +45,13 @@ pub(super) struct VertexPart<'a, S> {
 impl<'a, S: AsRef<VertexSpan>> VertexRuns<'a, S> {
     /// All vertices of the sub-draws of a group, in runs of `size`.
     pub(super) fn new(
-        (group, sub_draws): (&GroupVertices, &'a [S]),
+        (group, (sub_draws, of_group)): (&GroupVertices, (&'a Segments<S>, Range<usize>)),
         size: usize,
         out: ShadedSlice<'a>,
     ) -> Self {
         Self {
             sub_draws,
+            group: (of_group.start, of_group.end),
             vertices: 0..group.count,
             size: size.max(1),
             varying_scalars: group.varying_scalars(),
@@ -59,7 +62,7 @@ impl<'a, S: AsRef<VertexSpan>> VertexRuns<'a, S> {
     /// The vertices, sub-draw by sub-draw.
     pub(super) fn parts(self) -> impl Iterator<Item = VertexPart<'a, S>> {
         let Range { mut start, end } = self.vertices;
-        let mut sub_draws = self.starting_at(start).iter();
+        let mut sub_draws = self.sub_draws.range(self.starting_at(start));
         let mut out = self.out;
         std::iter::from_fn(move || {
             while start < end {
@@ -80,12 +83,12 @@ impl<'a, S: AsRef<VertexSpan>> VertexRuns<'a, S> {
         })
     }
 
-    /// The sub-draws from that of a vertex on.
-    fn starting_at(&self, vertex: usize) -> &'a [S] {
-        let begun = self
-            .sub_draws
-            .partition_point(|sub_draw| sub_draw.as_ref().first <= vertex);
-        &self.sub_draws[begun.saturating_sub(1)..]
+    /// The numbers of the sub-draws from that of a vertex on.
+    fn starting_at(&self, vertex: usize) -> Range<usize> {
+        let (first, end) = self.group;
+        let begins_by = |sub_draw: &S| sub_draw.as_ref().first <= vertex;
+        let begun = self.sub_draws.partition_point(first..end, begins_by);
+        begun.saturating_sub(1).max(first)..end
     }
 
     /// Scalars of the varyings of the vertices before one.
@@ -93,7 +96,8 @@ impl<'a, S: AsRef<VertexSpan>> VertexRuns<'a, S> {
         if let Some(scalars) = self.varying_scalars {
             return vertex * scalars;
         }
-        let span = self.starting_at(vertex).first().map(AsRef::as_ref);
+        let mut sub_draws = self.sub_draws.range(self.starting_at(vertex));
+        let span = sub_draws.next().map(AsRef::as_ref);
         span.map_or(0, |span| {
             span.first_varying + (vertex - span.first) * span.varying_scalars
         })
@@ -141,36 +145,42 @@ mod tests {
 
     /// The spans of sub-draws of so many vertices, scalars of varyings, and whether clip-space
     /// positions and sizes are kept.
-    fn spans(kinds: &[(usize, usize, bool)]) -> (GroupVertices, Vec<VertexSpan>) {
+    fn spans(kinds: &[(usize, usize, bool)]) -> (GroupVertices, Segments<VertexSpan>) {
         let mut group = GroupVertices::default();
-        let spans = kinds.iter().map(|&(count, varying_scalars, is_kept)| {
-            group.place(VertexSpan {
+        let mut spans = Segments::default();
+        // Those of another group come before.
+        spans.push(VertexSpan::default());
+        for &(count, varying_scalars, is_kept) in kinds {
+            spans.push(group.place(VertexSpan {
                 count,
                 varying_scalars,
                 keeps_clip_positions: is_kept,
                 has_point_sizes: is_kept,
                 ..VertexSpan::default()
-            })
-        });
-        let spans = spans.collect();
+            }));
+        }
         (group, spans)
     }
 
     /// Stamps each vertex, in what is kept of it, with the number of its sub-draw and its own, by
     /// jobs that are taken so many at a time.
-    fn stamp(vertices: &mut ShadedVertices, of: (&GroupVertices, &[VertexSpan]), by: [usize; 2]) {
-        let [size, taken] = by;
+    fn stamp(
+        vertices: &mut ShadedVertices,
+        of: (&GroupVertices, &Segments<VertexSpan>),
+        [size, taken]: [usize; 2],
+    ) {
+        let spans = (of.0, (of.1, 1..of.1.len()));
         vertices.resize_for(of.0);
         let mut jobs = VertexJobs {
             plan: None,
-            runs: VertexRuns::new(of, size, vertices.of_group_mut(of.0)),
+            runs: VertexRuns::new(spans, size, vertices.of_group_mut(of.0)),
         };
         let mut left = jobs.left();
         assert_eq!(left, of.0.count.div_ceil(size));
         while left > 0 {
             for part in jobs.take_first(taken).runs.parts() {
                 let same = |span: &VertexSpan| std::ptr::eq(span, part.sub_draw);
-                let number = of.1.iter().position(same).unwrap();
+                let number = of.1.iter().position(same).unwrap() - 1;
                 let (scalars, out) = (part.sub_draw.varying_scalars, part.out);
                 assert_eq!(out.varyings.len(), out.window.len() * scalars);
                 for at in 0..out.window.len() {
@@ -206,7 +216,7 @@ mod tests {
             // Several times, because memory is used again.
             for by in [[1, 1], [2, 3], [7, 2], [100, 1]] {
                 stamp(&mut vertices, (&group, &spans), by);
-                for (number, span) in spans.iter().enumerate() {
+                for (number, span) in spans.range(1..spans.len()).enumerate() {
                     let found = vertices.of_span(span);
                     for at in 0..span.count {
                         let stamp = number * 1000 + at;
@@ -233,7 +243,7 @@ mod tests {
         let mut plan = ChunkPlan::default();
         let mut jobs = VertexJobs {
             plan: Some(&mut plan),
-            runs: VertexRuns::new((&group, &spans), 4, vertices.of_group_mut(&group)),
+            runs: VertexRuns::new((&group, (&spans, 1..2)), 4, vertices.of_group_mut(&group)),
         };
         assert_eq!(jobs.left(), 4);
         let first = jobs.take_first(2);

@@ -187,8 +187,15 @@ fn push_row(grid: TileGrid, row: i32, columns: Range<i32>, entry: BinEntry, bins
     if grid.tiles_are_blocks() {
         let count = (columns.end - columns.start).cast_unsigned();
         bins.push(TileSpan::new(tile(columns.start), count), entry);
-    } else {
-        columns.for_each(|column| bins.push(TileSpan::of_tile(tile(column)), entry));
+        return;
+    }
+    // Two tiles of a block follow one another.
+    let mut column = columns.start;
+    while column < columns.end {
+        let next = columns.end.min((column | 1) + 1);
+        let count = (next - column).cast_unsigned();
+        bins.push(TileSpan::new(tile(column), count), entry);
+        column = next;
     }
 }
 
@@ -305,9 +312,9 @@ mod tests {
 
     const SIZE: [u32; 2] = [200, 150];
 
-    fn plan() -> GeometryPlan {
+    fn plan(grid: TileGrid) -> GeometryPlan {
         let target = TargetGeometry {
-            grid: TileGrid::new(SIZE[0], SIZE[1], 1),
+            grid,
             depth_stencil: None,
             rect: PixelRect::of_target(None, SIZE[0], SIZE[1]),
             position_range: [128; 2],
@@ -333,18 +340,22 @@ mod tests {
                 (bx - ax) * (py - ay) - (by - ay) * (px - ax) > 0
             })
         };
-        let (right, bottom) = ((left + 64).min(SIZE[0]), (top + 64).min(SIZE[1]));
+        let side = 1 << grid.tile_log2();
+        let (right, bottom) = ((left + side).min(SIZE[0]), (top + side).min(SIZE[1]));
         (top..bottom).any(|y| (left..right).any(|x| is_inside(x, y)))
     }
 
     #[test]
     fn every_tile_with_a_covered_sample_has_an_entry_and_lanes_are_in_order() {
-        let (plan, mut state) = (plan(), 7u32);
+        // Tiles of 64×64 pixels and of 32×32.
+        let plans = [1, 2].map(|samples| plan(TileGrid::new(SIZE[0], SIZE[1], samples)));
+        let mut state = 7u32;
         let mut random = |below: i32| {
             state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
             i32::try_from(state >> 8).unwrap() % below
         };
-        for turn in 0..12 {
+        for turn in 0..24 {
+            let plan = &plans[turn / 4 % 2];
             // Small ones, which share tiles; and some that span many.
             let size = [6, 6, 40, 300][turn % 4] * 256;
             let mut corners = [[[0_i32; 2]; 3]; LANES];
@@ -369,7 +380,7 @@ mod tests {
             dispatch!(Level::best(), s => {
                 let load = |lanes: [i32; LANES]| i32x16::load_array(s, lanes);
                 let positions = [[load(x[0]), load(x[1]), load(x[2])], [load(y[0]), load(y[1]), load(y[2])]];
-                bin_packet(s, &plan, positions, 0, &mut chunk);
+                bin_packet(s, plan, positions, 0, &mut chunk);
             });
             chunk.bins.sort();
             for tile in 0..u32::try_from(plan.grid.tiles()).unwrap() {

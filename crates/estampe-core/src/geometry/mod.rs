@@ -51,8 +51,9 @@ mod rectangles;
 
 pub(crate) mod setup;
 
-pub(crate) mod binning;
 mod tile_edges;
+
+pub(crate) mod binning;
 
 mod filled;
 mod gathered;

@@ -59,14 +59,15 @@ struct Most {
 impl ChunkPlan {
     /// Divides the primitives of a group of a batch's sub-draws among threads.
     pub(crate) fn build(&mut self, (batch, group): (&DrawBatch<'_>, Range<usize>), threads: usize) {
-        let (first, sub_draws) = (group.start, &batch.sub_draws[group]);
+        let (first, count) = (group.start, group.len());
+        let sub_draws = batch.sub_draws.range(group);
         self.parts.clear();
         self.ends.clear();
-        let all = sub_draws.iter().map(SubDraw::total_primitives).sum();
+        let all = sub_draws.clone().map(SubDraw::total_primitives).sum();
         let size = part_size(all, threads, CHUNK_PRIMITIVES);
         self.most = Most {
             primitives: u32::try_from(size).unwrap_or(u32::MAX),
-            runs: part_size(sub_draws.len(), threads, CHUNK_RUNS),
+            runs: part_size(count, threads, CHUNK_RUNS),
         };
         let mut open = OpenChunk::default();
         for (number, sub_draw) in (number(first)..).zip(sub_draws) {

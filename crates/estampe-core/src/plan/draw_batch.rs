@@ -12,17 +12,15 @@ use crate::geometry::shaded_vertices::{GroupVertices, ShadedVertices, VertexSpan
 use crate::pipeline::primitive_kind::PrimitiveKind;
 use crate::recycle::recycled;
 use crate::schedule::Executor;
+use crate::segments::{Missing, Segments};
 use crate::tile_path::{PathFacts, TilePath};
 use estampe_simd::{LANES, Level};
-
-/// Sub-draws whose plans one thread makes.
-const PART_PLANS: usize = 512;
 
 /// Sub-draws in submission order, and the states that they share.
 #[derive(Debug, Default)]
 pub(crate) struct DrawBatch<'a> {
     pub(crate) states: Vec<DrawState<'a>>,
-    pub(crate) sub_draws: Vec<SubDraw<'a>>,
+    pub(crate) sub_draws: Segments<SubDraw<'a>>,
     /// The first sub-draw of each state that tiles read, which sub-draws in a row share.
     pub(crate) tile_states: Vec<usize>,
     listed: Vec<ListedVertices>,
@@ -44,7 +42,7 @@ impl<'a> DrawBatch<'a> {
         self.clear();
         DrawBatch {
             states: recycled(self.states),
-            sub_draws: recycled(self.sub_draws),
+            sub_draws: self.sub_draws.recycled(),
             tile_states: self.tile_states,
             listed: self.listed,
             ..DrawBatch::default()
@@ -116,44 +114,74 @@ impl<'a> DrawBatch<'a> {
         self.sub_draws.push(sub_draw);
     }
 
-    /// Adds the sub-draws of a batch of one group behind those of the group at hand, and empties
-    /// that batch.
-    pub(super) fn append(&mut self, part: &mut Self) {
+    /// Adds the sub-draws of batches of one group each behind those of the group at hand, on all
+    /// threads, and empties these batches.
+    pub(super) fn append(&mut self, executor: &Executor, parts: &mut [Self]) {
+        if parts.is_empty() {
+            return;
+        }
+        let first = self.sub_draws.len();
+        let mut last = self.sub_draws.last().copied();
+        let mut end = first;
+        let mut moves: Vec<Move> = Vec::with_capacity(parts.len());
+        for part in &mut *parts {
+            let moved = self.move_of(part, (end, last));
+            end += part.sub_draws.len();
+            last = part.sub_draws.last().map(|last| moved.of(last)).or(last);
+            moves.push(moved);
+        }
+        let shared = &*parts;
+        let mut jobs: Vec<_> = self.sub_draws.grow_by(end - first).collect();
+        executor.for_each_alone(&mut jobs, |(segment, missing)| {
+            // From the last part that begins by there.
+            let part = moves.partition_point(|moved| moved.begin <= missing.start) - 1;
+            for (moved, part) in moves.iter().zip(shared).skip(part) {
+                let of_part = |number: usize| {
+                    let number = number.saturating_sub(moved.begin);
+                    number.min(part.sub_draws.len())
+                };
+                let numbers = of_part(missing.start)..of_part(missing.end);
+                if numbers.is_empty() && moved.begin >= missing.end {
+                    break;
+                }
+                let sub_draws = part.sub_draws.range(numbers);
+                segment.extend(sub_draws.map(|sub_draw| moved.of(sub_draw)));
+            }
+        });
+        parts.iter_mut().for_each(Self::clear);
+    }
+
+    /// Adds what a part counted, and all of it but its sub-draws, which will begin at a number,
+    /// behind another one. Says where they are moved.
+    fn move_of(&mut self, part: &mut Self, (begin, last): (usize, Option<SubDraw<'a>>)) -> Move {
         self.invisible_primitives += part.invisible_primitives;
         self.shaded += part.shaded;
         self.vertices += part.vertices;
         self.primitives += part.primitives;
+        let mut moved = Move {
+            begin,
+            states: number(self.states.len()),
+            tile_states: number(self.tile_states.len()),
+            listed: number(self.listed.len()),
+            group: self.group,
+        };
         let Some(first) = part.sub_draws.first() else {
-            return part.clear();
+            return moved;
         };
         // The state of the last sub-draw goes on.
-        let last = self.states.last();
-        let goes_on = first.state == 0 && last.is_some_and(|last| last.is_of(first.draw));
-        let states = number(self.states.len() - usize::from(goes_on));
-        self.states
-            .extend(part.states.drain(..).skip(usize::from(goes_on)));
-        let first = SubDraw {
-            state: first.state + states,
-            ..*first
-        };
-        let last = self.sub_draws.last();
+        let last_state = self.states.last();
+        let goes_on = first.state == 0 && last_state.is_some_and(|last| last.is_of(first.draw));
+        moved.states -= u32::from(goes_on);
+        let states = part.states.drain(..);
+        self.states.extend(states.skip(usize::from(goes_on)));
+        let first = moved.of(first);
         let goes_on = last.is_some_and(|last| last.has_tile_state_of(&first));
-        let tile_states = number(self.tile_states.len() - usize::from(goes_on));
-        let before = self.sub_draws.len();
+        moved.tile_states -= u32::from(goes_on);
         let new = part.tile_states.iter().skip(usize::from(goes_on));
-        self.tile_states.extend(new.map(|first| before + first));
-        let (group, listed) = (self.group, number(self.listed.len()));
-        self.sub_draws
-            .extend(part.sub_draws.iter().map(|sub_draw| SubDraw {
-                state: sub_draw.state + states,
-                tile_state: sub_draw.tile_state + tile_states,
-                span: group.moved(sub_draw.span),
-                listed: sub_draw.listed.map(|number| number + listed),
-                ..*sub_draw
-            }));
+        self.tile_states.extend(new.map(|first| begin + first));
         self.listed.append(&mut part.listed);
         self.group.append(&part.group);
-        part.clear();
+        moved
     }
 
     /// A sub-draw's lists of vertices, if it has some.
@@ -214,25 +242,44 @@ impl<'a> DrawBatch<'a> {
         &'b self,
         executor: &Executor,
         (states, vertices): (&'b [TileState<'b>], &'b ShadedVertices),
-        plans: &mut Vec<TilePlan<'b>>,
+        plans: &mut Segments<TilePlan<'b>>,
     ) {
-        let plan = |sub_draw: &'b SubDraw<'a>| TilePlan {
-            state: &states[sub_draw.tile_state as usize],
-            bindings: sub_draw.bindings(),
-            varyings: vertices.of_span(&sub_draw.span).varyings,
+        let mut segments: Vec<_> = plans.grow_by(self.sub_draws.len()).collect();
+        let fill = |(plans, missing): &mut Missing<'_, TilePlan<'b>>| {
+            let sub_draws = self.sub_draws.range(missing.clone());
+            plans.extend(sub_draws.map(|sub_draw| TilePlan {
+                state: &states[sub_draw.tile_state as usize],
+                bindings: sub_draw.bindings(),
+                varyings: vertices.of_span(&sub_draw.span).varyings,
+            }));
         };
-        if executor.threads() == 1 || self.sub_draws.len() <= PART_PLANS {
-            plans.extend(self.sub_draws.iter().map(plan));
-            return;
+        match &mut segments[..] {
+            [segment] => fill(segment),
+            segments => executor.for_each_alone(segments, fill),
         }
-        // Each is replaced.
-        plans.resize(self.sub_draws.len(), plan(&self.sub_draws[0]));
-        let parts = plans.chunks_mut(PART_PLANS);
-        let mut parts: Vec<_> = parts.zip(self.sub_draws.chunks(PART_PLANS)).collect();
-        executor.for_each_alone(&mut parts, |(plans, sub_draws)| {
-            for (into, sub_draw) in plans.iter_mut().zip(*sub_draws) {
-                *into = plan(sub_draw);
-            }
-        });
+    }
+}
+
+/// What is added to the numbers of a part's sub-draws where they join a batch.
+#[derive(Debug)]
+struct Move {
+    /// The number of the first of them.
+    begin: usize,
+    states: u32,
+    tile_states: u32,
+    listed: u32,
+    /// The vertices before theirs.
+    group: GroupVertices,
+}
+
+impl Move {
+    fn of<'a>(&self, sub_draw: &SubDraw<'a>) -> SubDraw<'a> {
+        SubDraw {
+            state: sub_draw.state + self.states,
+            tile_state: sub_draw.tile_state + self.tile_states,
+            span: self.group.moved(sub_draw.span),
+            listed: sub_draw.listed.map(|number| number + self.listed),
+            ..*sub_draw
+        }
     }
 }

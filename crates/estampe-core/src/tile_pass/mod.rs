@@ -33,6 +33,7 @@ use crate::per_sample::color_writer::ColorWriter;
 use crate::per_sample::hiz::HierarchicalZ;
 use crate::plan::tile_plan::TilePlan;
 use crate::raster::{MAX_PACKETS, SampleSet, TileShape};
+use crate::segments::Segments;
 use crate::statistics::Statistics;
 use estampe_simd::{LANES, Level, dispatch, outline};
 use estampe_types::TextureFormat;
@@ -57,7 +58,7 @@ pub(crate) struct TilePass<'a> {
     /// The pixels of the attachments, which end before the tiles at the right and below do.
     pub(crate) target: PixelRect,
     /// By sub-draw.
-    pub(crate) plans: &'a [TilePlan<'a>],
+    pub(crate) plans: &'a Segments<TilePlan<'a>>,
     pub(crate) chunks: &'a [Chunk],
     /// The chunks that reach each tile.
     pub(crate) chunk_index: &'a ChunkIndex,

@@ -89,14 +89,19 @@ impl<'a> Groups<'a> {
     }
 }
 
-/// Draws whose data one thread makes.
-const PART_DRAWS: usize = 512;
+/// Draws whose data one thread makes at once, at most and at least.
+const PART_DRAWS: [usize; 2] = [512, 16];
+
+/// Parts for each thread, if there are enough draws.
+const PARTS_PER_THREAD: usize = 2;
 
 /// The plain data that the draws of a pass refer to, made on all threads.
 #[derive(Debug, Default)]
 pub(crate) struct DrawData {
-    /// The data of each [`PART_DRAWS`] draws; more than there are draws for are empty.
+    /// The data of as many draws each as a part has; more than there are draws for are empty.
     parts: Vec<PartData>,
+    /// Draws of a part, but for the last one.
+    part_draws: usize,
 }
 
 /// The plain data of a part of a pass's draws: that of a draw, unless it is that of the one before,
@@ -136,14 +141,17 @@ impl DrawData {
         check: &DrawCheck<'_>,
         queries: usize,
     ) -> Result<(), PassErrorKind> {
-        let parts = draws.chunks(PART_DRAWS);
+        let [most, least] = PART_DRAWS;
+        let parts = PARTS_PER_THREAD.saturating_mul(context.threads());
+        self.part_draws = (draws.len() / parts).clamp(least, most);
+        let parts = draws.chunks(self.part_draws);
         if self.parts.len() < parts.len() {
             self.parts.resize_with(parts.len(), PartData::default);
         }
         for rest in &mut self.parts[parts.len()..] {
             rest.survey.clear();
         }
-        let firsts = (0..).step_by(PART_DRAWS);
+        let firsts = (0..).step_by(self.part_draws);
         let jobs = self.parts.iter_mut().zip(firsts.zip(parts));
         let mut jobs: Vec<_> = jobs.collect();
         check.attachments.with_shape(|target| {
@@ -190,7 +198,7 @@ impl DrawData {
         groups: &Groups<'_>,
         resources: &[Arc<BoundResources>],
     ) {
-        let jobs = self.parts.iter_mut().zip(draws.chunks(PART_DRAWS));
+        let jobs = self.parts.iter_mut().zip(draws.chunks(self.part_draws));
         let mut jobs: Vec<_> = jobs.collect();
         context.for_each(&mut jobs, |(part, draws)| {
             part.fill(draws, groups, resources);
@@ -215,7 +223,7 @@ impl DrawData {
         draws: &[Draw<'a>],
         into: &mut Vec<Vec<estampe_core::Draw<'a>>>,
     ) {
-        let parts = self.parts.iter().zip(draws.chunks(PART_DRAWS));
+        let parts = self.parts.iter().zip(draws.chunks(self.part_draws));
         if into.len() < parts.len() {
             into.resize_with(parts.len(), Vec::new);
         }

@@ -84,15 +84,15 @@ impl<'a> DrawCursor<'a> {
         let before = [batch.vertices, batch.primitives];
         // More threads have more work at once, and wait for each other as rarely as few.
         let budget = GROUP_BUDGET.saturating_mul(executor.threads());
-        while batch.vertices - before[0] < budget
-            && batch.primitives - before[1] < budget
-            && batch.vertices < BATCH_BUDGET
-            && batch.primitives < BATCH_BUDGET
-        {
+        let is_full = |sizes: [usize; 2]| {
+            let mut sizes = sizes.into_iter().zip(before);
+            sizes.any(|(now, before)| now - before >= budget || now >= BATCH_BUDGET)
+        };
+        while !is_full([batch.vertices, batch.primitives]) {
             if let Some(open) = self.now.take() {
                 let indices = (executor, &mut self.known);
                 self.now.current = cut(open, indices, target, batch);
-            } else if let Some(left) = self.parts.join_next(batch) {
+            } else if let Some(left) = self.parts.join_next(executor, batch, is_full) {
                 self.now = left;
             } else if self.later.len() == 0 {
                 break;
@@ -112,6 +112,10 @@ impl<'a> UncutDraws<'a> {
             current: None,
             draws,
         }
+    }
+
+    fn is_empty(&self) -> bool {
+        self.current.is_none() && self.draws.len() == 0
     }
 
     /// Takes the draw that is being cut, or the next one of at least one primitive.

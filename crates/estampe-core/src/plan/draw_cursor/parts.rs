@@ -27,7 +27,7 @@ const PART_DRAWS: [usize; 2] = [256, 16];
 const MANY_DRAWS: usize = 64;
 
 /// Parts for each thread that are cut at once.
-const PARTS_PER_THREAD: usize = 4;
+const PARTS_PER_THREAD: usize = 2;
 
 /// Parts of draws that are not in the batch yet, in order.
 #[derive(Debug)]
@@ -61,12 +61,29 @@ impl<'a> Parts<'a> {
         self.cut.iter().map(|part| part.draws).sum()
     }
 
-    /// Adds the next part to a batch; gives its draws that were not cut.
-    pub(super) fn join_next(&mut self, batch: &mut DrawBatch<'a>) -> Option<UncutDraws<'a>> {
-        let mut part = self.cut.pop_front()?;
-        batch.append(&mut part.batch);
-        self.memory.push(part.batch);
-        Some(part.left)
+    /// Adds the next parts to a batch, up to one some of whose draws were not cut, or until
+    /// `is_full` says so of the batch's vertices and primitives. Gives the draws that were not cut.
+    pub(super) fn join_next(
+        &mut self,
+        executor: &Executor,
+        batch: &mut DrawBatch<'a>,
+        is_full: impl Fn([usize; 2]) -> bool,
+    ) -> Option<UncutDraws<'a>> {
+        let mut sizes = [batch.vertices, batch.primitives];
+        let mut left = None;
+        let mut joined = Vec::new();
+        while !is_full(sizes)
+            && left.as_ref().is_none_or(UncutDraws::is_empty)
+            && let Some(part) = self.cut.pop_front()
+        {
+            sizes[0] += part.batch.vertices;
+            sizes[1] += part.batch.primitives;
+            left = Some(part.left);
+            joined.push(part.batch);
+        }
+        batch.append(executor, &mut joined);
+        self.memory.append(&mut joined);
+        left
     }
 
     /// Cuts the next draws of a list in parts, on all threads. `false`, with nothing done, if there

@@ -7,6 +7,7 @@ use crate::bounds::bins::BinEntry;
 use crate::bounds::chunk::Chunk;
 use crate::plan::tile_plan::TilePlan;
 use crate::raster::MAX_PACKETS;
+use crate::segments::Segments;
 use estampe_simd::{LANES, Lanes, Level, SimdBase, SimdMask, dispatch, u8x16};
 use std::ops::Range;
 
@@ -123,7 +124,7 @@ impl<const N: usize> VisibilityBuffer<N> {
         &mut self,
         (chunk, number): (&Chunk, u32),
         entries: &[BinEntry],
-        plans: &[TilePlan<'_>],
+        plans: &Segments<TilePlan<'_>>,
     ) -> u32 {
         let first = self.next_id();
         let Some(BinEntry::Triangles { packet, lanes }) = entries.first() else {
@@ -167,7 +168,12 @@ impl<const N: usize> VisibilityBuffer<N> {
     }
 
     /// Adds the triangles from an id on, which are a sub-draw's, to the groups.
-    pub(super) fn end_sub_draw(&mut self, sub_draw: u32, first: u32, plans: &[TilePlan<'_>]) {
+    pub(super) fn end_sub_draw(
+        &mut self,
+        sub_draw: u32,
+        first: u32,
+        plans: &Segments<TilePlan<'_>>,
+    ) {
         let end = self.next_id();
         match self.groups.last_mut() {
             Some(group)
