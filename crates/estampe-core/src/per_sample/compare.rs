@@ -1,6 +1,6 @@
-//! Comparison functions: of depths and stencil values, sixteen or one.
+//! Comparison functions: of depths and stencil values, sixteen or one; and the extremes of many.
 
-use estampe_simd::{Lanes, SimdBase, f32x16, mask8x16, mask32x16, u8x16};
+use estampe_simd::{LANES, Lanes, SimdBase, f32x16, mask8x16, mask32x16, u8x16};
 use estampe_types::state::CompareFunction;
 
 /// Values that a comparison function compares, and what it says of them.
@@ -174,3 +174,38 @@ macro_rules! one_value {
 
 one_value!(f32);
 one_value!(u8);
+
+/// The least and the greatest of depths, none of which is NaN. One after the other they would be
+/// waited for, so four go side by side.
+#[inline(always)]
+pub(super) fn extremes(lines: &[[f32; LANES]]) -> [f32; 2] {
+    let least = |a: f32, b: f32| if a < b { a } else { b };
+    let greatest = |a: f32, b: f32| if a > b { a } else { b };
+    let (mut low, mut high) = ([f32::INFINITY; 4], [f32::NEG_INFINITY; 4]);
+    for depths in lines.as_flattened().as_chunks::<4>().0 {
+        for ((low, high), depth) in low.iter_mut().zip(&mut high).zip(depths) {
+            *low = least(*low, *depth);
+            *high = greatest(*high, *depth);
+        }
+    }
+    [
+        least(least(low[0], low[2]), least(low[1], low[3])),
+        greatest(greatest(high[0], high[2]), greatest(high[1], high[3])),
+    ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn extremes_are_found_in_each_lane() {
+        for at in 0..2 * LANES {
+            let mut lines = [[0.5; LANES]; 2];
+            lines.as_flattened_mut()[at] = 0.25;
+            assert_eq!(extremes(&lines), [0.25, 0.5]);
+            lines.as_flattened_mut()[at] = 0.75;
+            assert_eq!(extremes(&lines), [0.5, 0.75]);
+        }
+    }
+}

@@ -7,7 +7,7 @@
 //! of stored depths are refreshed lazily: a block that was written is scanned when the next large
 //! triangle asks. (Greene, Kass and Miller 1993.)
 
-use super::compare::{orders, prefers_less};
+use super::compare::{extremes, orders, prefers_less};
 use super::packet_ranges::PacketRanges;
 use super::sample_tests::SampleTests;
 use crate::bounds::plane::Plane;
@@ -236,9 +236,8 @@ impl HierarchicalZ {
                 least = s.min_f32(value, least);
                 greatest = s.max_f32(value, greatest);
             }
-            let (least, greatest) = (least.to_array(), greatest.to_array());
-            self.least[block] = least.into_iter().fold(f32::INFINITY, f32::min);
-            self.greatest[block] = greatest.into_iter().fold(f32::NEG_INFINITY, f32::max);
+            self.least[block] = extremes(&[least.to_array()])[0];
+            self.greatest[block] = extremes(&[greatest.to_array()])[1];
         }
         self.stale = 0;
         self.set_tile_range();

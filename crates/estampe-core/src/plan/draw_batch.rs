@@ -16,6 +16,9 @@ use crate::segments::{Missing, Segments};
 use crate::tile_path::{PathFacts, TilePath};
 use estampe_simd::{LANES, Level};
 
+/// Sub-draws whose plans one thread makes while others wait.
+const FEW_SUB_DRAWS: usize = 128;
+
 /// Sub-draws in submission order, and the states that they share.
 #[derive(Debug, Default)]
 pub(crate) struct DrawBatch<'a> {
@@ -244,7 +247,7 @@ impl<'a> DrawBatch<'a> {
         (states, vertices): (&'b [TileState<'b>], &'b ShadedVertices),
         plans: &mut Segments<TilePlan<'b>>,
     ) {
-        let mut segments: Vec<_> = plans.grow_by(self.sub_draws.len()).collect();
+        let segments = plans.grow_by(self.sub_draws.len());
         let fill = |(plans, missing): &mut Missing<'_, TilePlan<'b>>| {
             let sub_draws = self.sub_draws.range(missing.clone());
             plans.extend(sub_draws.map(|sub_draw| TilePlan {
@@ -253,10 +256,12 @@ impl<'a> DrawBatch<'a> {
                 varyings: vertices.of_span(&sub_draw.span).varyings,
             }));
         };
-        match &mut segments[..] {
-            [segment] => fill(segment),
-            segments => executor.for_each_alone(segments, fill),
+        if executor.threads() == 1 || self.sub_draws.len() <= FEW_SUB_DRAWS {
+            segments.for_each(|mut segment| fill(&mut segment));
+            return;
         }
+        let mut segments: Vec<_> = segments.collect();
+        executor.for_each_alone(&mut segments, fill);
     }
 }
 

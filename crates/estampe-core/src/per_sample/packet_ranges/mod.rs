@@ -16,7 +16,7 @@
 //! Rounding to fixed point moves a depth by less than two codes; ranges are compared with a margin
 //! of four, in place of the division.
 
-use super::compare::{orders, prefers_less};
+use super::compare::{extremes, orders, prefers_less};
 use super::hiz::{HizQuery, corner, starts_of_units};
 use super::sample_tests::SampleTests;
 use crate::bounds::plane::Plane;
@@ -80,12 +80,7 @@ impl PacketRanges {
             blocks &= blocks - 1;
             let lines = stored.chunks_exact(samples).skip(block * LANES);
             for (packet, lines) in lines.take(LANES).enumerate() {
-                let (mut least, mut greatest) = (f32::INFINITY, f32::NEG_INFINITY);
-                // No stored depth is NaN.
-                for &depth in lines.as_flattened() {
-                    least = if depth < least { depth } else { least };
-                    greatest = if depth > greatest { depth } else { greatest };
-                }
+                let [least, greatest] = extremes(lines);
                 (self.least[block][packet], self.greatest[block][packet]) = (least, greatest);
             }
         }
