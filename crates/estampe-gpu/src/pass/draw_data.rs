@@ -114,6 +114,9 @@ struct PartData {
     /// Those in use, then others, whose memory is kept.
     bindings: Vec<Bindings>,
     bound: usize,
+    /// True if the last draw has bindings: the last ones, or, if there are none, those of the draw
+    /// before the part.
+    is_bound_at_end: bool,
 }
 
 /// Memory of a pass's draws, kept for the next pass.
@@ -155,8 +158,9 @@ impl DrawData {
         let jobs = self.parts.iter_mut().zip(firsts.zip(parts));
         let mut jobs: Vec<_> = jobs.collect();
         check.attachments.with_shape(|target| {
-            context.for_each(&mut jobs, |(part, draws)| {
-                part.survey.look(*draws, check, (target, queries));
+            context.for_each(&mut jobs, |(part, (first, of_part))| {
+                let numbers = *first..*first + of_part.len();
+                part.survey.look((draws, numbers), check, (target, queries));
             });
         });
         let refused = |part: &mut PartData| part.survey.refused.take();
@@ -227,9 +231,15 @@ impl DrawData {
         if into.len() < parts.len() {
             into.resize_with(parts.len(), Vec::new);
         }
-        let mut jobs: Vec<_> = into.iter_mut().zip(parts).collect();
-        context.for_each(&mut jobs, |(into, (part, draws))| {
-            part.draws_into(draws, into);
+        let mut bound_before = None;
+        let jobs = into.iter_mut().zip(parts).map(|(into, (part, draws))| {
+            let before = bound_before;
+            bound_before = part.bound_at_end(before);
+            (into, (part, before), draws)
+        });
+        let mut jobs: Vec<_> = jobs.collect();
+        context.for_each(&mut jobs, |(into, (part, before), draws)| {
+            part.draws_into((draws, *before), into);
         });
     }
 }
@@ -241,7 +251,13 @@ impl PartData {
             bindings.groups.clear();
             bindings.immediates.clear();
         }
-        self.bound = 0;
+        (self.bound, self.is_bound_at_end) = (0, false);
+    }
+
+    /// The bindings of the last draw, given those of the draw before the part.
+    fn bound_at_end<'a>(&'a self, before: Option<&'a Bindings>) -> Option<&'a Bindings> {
+        let last = self.bindings[..self.bound].last().or(before);
+        last.filter(|_| self.is_bound_at_end)
     }
 
     /// Makes the data of draws.
@@ -275,13 +291,19 @@ impl PartData {
             bindings.groups.extend(found);
             bindings.immediates.extend(immediate_words(draw.immediates));
         }
+        self.is_bound_at_end = draws.last().is_some_and(is_bound);
     }
 
-    /// The draws as the core sees them, in a list that is cleared first.
-    fn draws_into<'a>(&'a self, draws: &[Draw<'a>], into: &mut Vec<estampe_core::Draw<'a>>) {
+    /// The draws as the core sees them, in a list that is cleared first, given the bindings of the
+    /// draw before them.
+    fn draws_into<'a>(
+        &'a self,
+        (draws, mut bound): (&[Draw<'a>], Option<&'a Bindings>),
+        into: &mut Vec<estampe_core::Draw<'a>>,
+    ) {
         let mut buffers = &self.buffers[..];
         let mut bindings = self.bindings.iter();
-        let (mut vertices, mut indices, mut bound) = (&[][..], None, None);
+        let (mut vertices, mut indices) = (&[][..], None);
         let draws = draws.iter().zip(&self.survey.differs);
         into.clear();
         into.extend(draws.map(|(draw, differs)| {

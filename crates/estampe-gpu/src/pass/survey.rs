@@ -9,8 +9,10 @@ use super::check::DrawCheck;
 use super::{Draw, PassErrorKind};
 use crate::BufferSlice;
 use estampe_core::{DrawChecker, DrawNeeds, TargetShape};
+use std::ops::Range;
 
-/// Differences of a draw from the one before in its part; of the first one all are set.
+/// Differences of a draw from the one before; of the first one of a part, vertices and indices are
+/// set.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Differs {
     pub(super) vertices: bool,
@@ -58,17 +60,18 @@ impl PartSurvey {
         };
     }
 
-    /// Looks through draws, the first of which has a number in the pass.
+    /// Looks through those of a pass's draws with some numbers.
     pub(super) fn look(
         &mut self,
-        (first, draws): (usize, &[Draw<'_>]),
+        (draws, numbers): (&[Draw<'_>], Range<usize>),
         check: &DrawCheck<'_>,
         (target, queries): (&TargetShape<'_>, usize),
     ) {
         self.clear();
         let mut checker = DrawChecker::new(target, queries);
         let mut before: Option<&Draw<'_>> = None;
-        for (number, draw) in (first..).zip(draws) {
+        let before_all = numbers.start.checked_sub(1).map(|number| &draws[number]);
+        for (number, draw) in numbers.clone().zip(&draws[numbers]) {
             let checked = check.check(number, draw, before);
             if checked.is_err() {
                 self.refused = checked.err();
@@ -85,7 +88,15 @@ impl PartSurvey {
             if before.is_none_or(|before| !same_lists(before, draw)) {
                 self.changes.push(number);
             }
-            let differs = before.map_or(Differs::ALL, |before| Differs::between(before, draw));
+            let differs = match (before, before_all) {
+                (Some(before), _) => Differs::between(before, draw),
+                (None, Some(before)) => Differs {
+                    // Draws with the same bindings are shaded together, whatever part they are in.
+                    bindings: Differs::between(before, draw).bindings,
+                    ..Differs::ALL
+                },
+                (None, None) => Differs::ALL,
+            };
             if differs.bindings {
                 self.dynamic_offsets.extend(draw.dynamic_offsets);
             }
@@ -121,7 +132,7 @@ impl Differs {
 
 /// The vertices of all instances of a draw.
 pub(super) fn vertices(draw: &Draw<'_>) -> u64 {
-    let len = |range: &std::ops::Range<u32>| u64::from(range.end.saturating_sub(range.start));
+    let len = |range: &Range<u32>| u64::from(range.end.saturating_sub(range.start));
     len(&draw.elements) * len(&draw.instances)
 }
 

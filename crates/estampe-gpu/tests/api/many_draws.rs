@@ -15,7 +15,7 @@ use estampe::{
 const DRAWS: u32 = 1300;
 
 /// Draws of one of the passes that are compared: fewer than a part.
-const FEW: usize = 90;
+const FEW: usize = 15;
 
 /// Bytes between the uniforms of draws: the multiple that dynamic offsets must be of.
 const STRIDE: u32 = 256;
@@ -40,8 +40,28 @@ estampe::shader! {
     }
 }
 
+/// A blue triangle where its vertices are.
+struct Unplaced;
+
+estampe::shader! {
+    impl Shader for Unplaced {
+        type Attributes<R: Real> = Vec2<R>;
+        type Varyings<R: Real> = ();
+
+        fn vertex<R: Real>(&self, input: VertexIn<'_, R>, at: Vec2<R>) -> VertexOut<R, ()> {
+            VertexOut::new(Vec4::new(at.x, at.y, input.real(0.5), input.real(1.0)), ())
+        }
+
+        fn fragment<R: Real>(&self, input: FragmentIn<'_, R>, (): ()) -> FragmentOut<R> {
+            FragmentOut::color(Vec4::uniform(input.zero, [0.0, 0.0, 1.0, 1.0]))
+        }
+    }
+}
+
 struct Objects {
     pipelines: [RenderPipeline; 2],
+    /// Without bind groups.
+    unbound: RenderPipeline,
     groups: [BindGroup; 2],
     vertices: [BufferSlice; 3],
     indices: BufferSlice,
@@ -71,6 +91,8 @@ impl Objects {
             descriptor.primitive.cull_mode = cull_mode;
             device.create_render_pipeline(&descriptor).unwrap()
         };
+        let mut unbound = RenderPipelineDescriptor::new(Unplaced);
+        unbound.vertex_buffers = vec![VertexBufferLayout::packed(&[VertexFormat::Float32x2])];
         let uniform = |number| {
             let unit = |k| random(number, k) as f32 / 65_536.0;
             let mut words = [0.0; STRIDE as usize / 4];
@@ -102,6 +124,7 @@ impl Objects {
         let indices = device.create_buffer_with_contents(bytes_of(&[2_u32, 0, 1]));
         Self {
             pipelines: [CullMode::None, CullMode::Back].map(pipeline),
+            unbound: device.create_render_pipeline(&unbound).unwrap(),
             groups: [group(), group()],
             vertices: [0, 24, 48].map(|first| corners.slice(first..first + 24)),
             indices: indices.unwrap().slice(..),
@@ -116,17 +139,25 @@ impl Objects {
             let of_run = number / 7;
             let vertices = &self.vertices[random(of_run, 0) as usize % 3];
             let is_indexed = random(of_run, 1).is_multiple_of(2);
-            let uniform = if random(number, 2).is_multiple_of(4) {
-                of_run
-            } else {
-                number
+            // Whole runs have the same bindings, or their draws have any, or none.
+            let uniform = match random(of_run, 2) % 2 {
+                0 => of_run,
+                _ if random(number, 2).is_multiple_of(4) => of_run,
+                _ => number,
             };
-            Draw {
+            let draw = Draw {
                 vertex_buffers: std::slice::from_ref(vertices),
                 index_buffer: is_indexed.then_some((&self.indices, IndexFormat::Uint32)),
+                ..Draw::new(&self.unbound, 0..3)
+            };
+            if random(of_run, 5).is_multiple_of(4) {
+                return draw;
+            }
+            Draw {
+                pipeline: &self.pipelines[random(of_run, 4) as usize % 2],
                 bind_groups: std::slice::from_ref(&self.groups[random(of_run, 3) as usize % 2]),
                 dynamic_offsets: std::slice::from_ref(&self.offsets[uniform as usize]),
-                ..Draw::new(&self.pipelines[random(of_run, 4) as usize % 2], 0..3)
+                ..draw
             }
         };
         (0..DRAWS).map(draw).collect()
