@@ -157,6 +157,9 @@ pub struct Statistics {
     /// depend on the SIMD level.
     #[doc(hidden)]
     pub blocks_uncleared: u64,
+    /// Blocks that got the depths of a triangle parallel to the screen, which are equal.
+    #[doc(hidden)]
+    pub blocks_of_one_depth: u64,
     /// Time of the geometry side.
     pub geometry: Duration,
     /// Time of the tile side.
@@ -223,6 +226,7 @@ impl std::ops::AddAssign for Statistics {
         self.tiles_in_workers += other.tiles_in_workers;
         self.images_given_memory += other.images_given_memory;
         self.blocks_uncleared += other.blocks_uncleared;
+        self.blocks_of_one_depth += other.blocks_of_one_depth;
         self.packets_shown_uncleared += other.packets_shown_uncleared;
         self.blocks_queued += other.blocks_queued;
         self.geometry += other.geometry;

@@ -217,6 +217,31 @@ fn a_pass_without_draws_clears() {
     });
 }
 
+/// Passes of few primitives are drawn in smaller tiles by several threads, although there are
+/// enough for them.
+///
+/// Rows: R1, R3, R6, O8.
+#[test]
+fn tiles_are_smaller_where_primitives_are_few() {
+    let statistics = check_paths(
+        "passes/few primitives",
+        16,
+        ExpectedPaths::default(),
+        |random| {
+            // Twelve tiles of one sample or four.
+            let size = random.pick(&[[200, 150], [256, 190], [130, 240]]);
+            let mut case = Case::new(size, random.pick(&[1, 1, 4]));
+            case.clear_color = random.four(-0.5, 1.5);
+            let style = random.pick(&[Style::Large, Style::Huge, Style::Sliver]);
+            let vertices = triangles(random, style, size, 4);
+            case.draws.push(CaseDraw::new(Colored, &vertices));
+            case.second_pass = random.index(2);
+            case
+        },
+    );
+    assert!(statistics.tiles_for_threads > 0, "no tile was smaller");
+}
+
 /// Rows: O8.
 #[test]
 fn tiles_that_no_primitive_reaches_are_only_cleared_or_kept() {

@@ -253,4 +253,6 @@ fn packets_that_triangles_cover_are_not_cleared() {
     assert!(statistics.packets_shown_uncleared > 0, "all were cleared");
     let blocks = statistics.blocks_uncleared;
     assert!(blocks > 0, "no triangle replaced all of a block");
+    let level = statistics.blocks_of_one_depth;
+    assert!(level > 0, "no triangle in whole blocks was level");
 }

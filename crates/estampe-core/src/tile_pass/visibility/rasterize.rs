@@ -367,6 +367,10 @@ impl<'a, 'j, 't, const N: usize> Rasterizer<'a, 'j, 't, N> {
             }
             if plan.tests.writes_depth() {
                 writer.write_depths(level, &seen, certain);
+                if plane.is_level() {
+                    let blocks = u64::from(certain.count_ones());
+                    self.scratch.statistics.blocks_of_one_depth += blocks;
+                }
             }
         }
         if touched != 0 {
