@@ -241,7 +241,7 @@ impl<'a> Setup<'a> {
         if !takes_apart {
             let block = <i32x16<S> as SimdBase<S>>::splat(s, 16 << 8);
             let width = x0.max(x1).max(x2) - x0.min(x1).min(x2);
-            packet.large = s.bits_of_mask(width.simd_gt(block) & (y2 - y0).simd_gt(block));
+            packet.large = s.sign_bits((block - width) & (block - (y2 - y0)));
         }
         let edges = TriangleEdges::new(s, [&[x0, x1, x2], &[y0, y1, y2]], area);
         z0.store_array(&mut packet.z.origin);
