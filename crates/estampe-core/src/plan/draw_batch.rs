@@ -139,15 +139,16 @@ impl<'a> DrawBatch<'a> {
             // From the last part that begins by there.
             let part = moves.partition_point(|moved| moved.begin <= missing.start) - 1;
             for (moved, part) in moves.iter().zip(shared).skip(part) {
+                if moved.begin >= missing.end {
+                    break;
+                }
                 let of_part = |number: usize| {
                     let number = number.saturating_sub(moved.begin);
                     number.min(part.sub_draws.len())
                 };
-                let numbers = of_part(missing.start)..of_part(missing.end);
-                if numbers.is_empty() && moved.begin >= missing.end {
-                    break;
-                }
-                let sub_draws = part.sub_draws.range(numbers);
+                let sub_draws = part
+                    .sub_draws
+                    .range(of_part(missing.start)..of_part(missing.end));
                 segment.extend(sub_draws.map(|sub_draw| moved.of(sub_draw)));
             }
         });
