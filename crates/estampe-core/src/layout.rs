@@ -92,6 +92,19 @@ impl TileGrid {
         self.stored_pixels() / self.tile_pixels()
     }
 
+    /// The most runs of tiles that follow one another in which a primitive lies.
+    pub(crate) fn most_spans(self) -> u64 {
+        let blocks = match self.tiles_are_blocks() {
+            true => self.blocks_y,
+            // Two rows of two tiles each.
+            false => self
+                .blocks_x
+                .saturating_mul(self.blocks_y)
+                .saturating_mul(2),
+        };
+        u64::from(blocks.max(1))
+    }
+
     /// The number of the tile at a column and row of tiles.
     #[inline(always)]
     pub(crate) fn tile_at(self, column: u32, row: u32) -> u32 {

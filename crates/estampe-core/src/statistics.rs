@@ -27,6 +27,10 @@ pub struct Statistics {
     pub primitives_culled: u64,
     /// Primitives that were set up and binned, clipping's pieces counted one by one.
     pub primitives_binned: u64,
+    /// Bands of tiles that were drawn one after the other, as the bins of all tiles would have taken
+    /// much memory.
+    #[doc(hidden)]
+    pub bands_of_tiles: u64,
     /// Triangles whose positions were gathered in pairs of words, where the processor is fast at
     /// it. They depend on the SIMD level.
     #[doc(hidden)]
@@ -124,6 +128,9 @@ pub struct Statistics {
     /// Groups of sub-draws whose geometry was done together.
     #[doc(hidden)]
     pub groups_of_geometry: u64,
+    /// Times that tiles were drawn: after all draws, and whenever a batch was full.
+    #[doc(hidden)]
+    pub batches: u64,
     /// Colour attachments of tiles that were resolved when the tile was drawn.
     #[doc(hidden)]
     pub tiles_resolved: u64,
@@ -177,6 +184,7 @@ impl std::ops::AddAssign for Statistics {
         self.primitives_clipped += other.primitives_clipped;
         self.primitives_culled += other.primitives_culled;
         self.primitives_binned += other.primitives_binned;
+        self.bands_of_tiles += other.bands_of_tiles;
         self.triangles_gathered_in_pairs += other.triangles_gathered_in_pairs;
         self.lines_in_packets += other.lines_in_packets;
         self.fragments_shaded += other.fragments_shaded;
@@ -218,6 +226,7 @@ impl std::ops::AddAssign for Statistics {
         self.visibility_runs += other.visibility_runs;
         self.paths += other.paths;
         self.groups_of_geometry += other.groups_of_geometry;
+        self.batches += other.batches;
         self.tiles_resolved += other.tiles_resolved;
         self.tiles_for_threads += other.tiles_for_threads;
         self.tiles_only_cleared += other.tiles_only_cleared;

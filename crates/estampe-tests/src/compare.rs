@@ -3,7 +3,9 @@
 use crate::Random;
 use crate::case::Case;
 use crate::expected_paths::ExpectedPaths;
-use crate::fast_path::{self, Drawn, all_devices, devices_of_seed, some_devices};
+use crate::fast_path::{
+    self, Drawn, all_devices, devices_of_seed, devices_with_small_bins, some_devices,
+};
 use crate::inspection;
 use crate::oracle::{self, Image};
 use estampe::{Device, Statistics, TilePath};
@@ -31,6 +33,35 @@ pub fn check_paths(
     paths: ExpectedPaths,
     make: impl Fn(&mut Random) -> Case,
 ) -> Statistics {
+    let devices = |seed, is_longer| match is_longer {
+        true => all_devices(),
+        false => devices_of_seed(seed),
+    };
+    check_on(topic, count, (paths, devices), make)
+}
+
+/// Draws `count` random cases of a topic with the oracle and on devices with hardly any memory for
+/// bins. Returns the sum of all statistics.
+///
+/// # Panics
+/// If an image differs, as in [`check`].
+pub fn check_with_small_bins(
+    topic: &str,
+    count: u64,
+    make: impl Fn(&mut Random) -> Case,
+) -> Statistics {
+    let devices = |_, _| devices_with_small_bins();
+    check_on(topic, count, (ExpectedPaths::default(), devices), make)
+}
+
+/// Draws `count` random cases, or as many times more as the environment asks for, on the devices of
+/// each seed; together they must have taken `paths`.
+fn check_on(
+    topic: &str,
+    count: u64,
+    (paths, devices_of): (ExpectedPaths, impl Fn(u64, bool) -> Vec<&'static Device>),
+    make: impl Fn(&mut Random) -> Case,
+) -> Statistics {
     let (mut cases, mut empty) = (0, 0);
     let mut statistics = Statistics::default();
     let number = |name: &str| std::env::var(name).ok()?.parse::<u64>().ok();
@@ -42,10 +73,7 @@ pub fn check_paths(
     };
     for seed in seeds {
         let case = make(&mut Random::new(topic, seed));
-        let devices = match factor {
-            Some(_) => all_devices(),
-            None => devices_of_seed(seed),
-        };
+        let devices = devices_of(seed, factor.is_some());
         let image = match compare(&case, &devices, &mut statistics) {
             Ok(image) => image,
             Err(first) => {

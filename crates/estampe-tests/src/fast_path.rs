@@ -13,18 +13,23 @@ use estampe_types::state::{ColorTargetState, DepthStencilState, MultisampleState
 use estampe_types::{Bindings, BoundResource, BufferData, TextureFormat};
 use std::sync::LazyLock;
 
-/// Numbers of threads: one, an even division, and more than this machine may have.
-const THREADS: [usize; 3] = [1, 2, 7];
+/// Numbers of threads: one, an even division, and more than this machine may have; the last with
+/// hardly any memory for bins, so that batches end early and tiles are drawn in bands.
+const THREADS: [(usize, bool); 4] = [(1, false), (2, false), (7, false), (3, true)];
 
 /// A device for every SIMD level and number of threads, sorted by level.
 static DEVICES: LazyLock<Vec<Device>> = LazyLock::new(|| {
-    let device = |level: Level, threads: usize| {
-        Device::new(&DeviceDescriptor {
+    let device = |level: Level, (threads, has_small_bins): (usize, bool)| {
+        let device = Device::new(&DeviceDescriptor {
             threads,
             level,
             ..DeviceDescriptor::default()
-        })
-        .expect("the system starts a few threads")
+        });
+        let device = device.expect("the system starts a few threads");
+        match has_small_bins {
+            true => device.with_small_bins(),
+            false => device,
+        }
     };
     let levels = Level::all_available().into_iter();
     levels
@@ -36,6 +41,14 @@ static DEVICES: LazyLock<Vec<Device>> = LazyLock::new(|| {
 #[must_use]
 pub fn all_devices() -> Vec<&'static Device> {
     DEVICES.iter().collect()
+}
+
+/// The devices of every SIMD level with hardly any memory for bins.
+#[must_use]
+pub fn devices_with_small_bins() -> Vec<&'static Device> {
+    let devices = DEVICES.iter().zip(THREADS.iter().cycle());
+    let small = devices.filter(|(_, (_, has_small_bins))| *has_small_bins);
+    small.map(|(device, _)| device).collect()
 }
 
 /// One device of every SIMD level; the numbers of threads differ from level to level and rotate

@@ -44,7 +44,7 @@ pub mod transfers;
 struct Readme;
 
 pub use case::{Case, CaseDraw};
-pub use compare::{check, check_one, check_paths, check_some};
+pub use compare::{check, check_one, check_paths, check_some, check_with_small_bins};
 pub use expected_paths::ExpectedPaths;
 pub use random::Random;
 pub use shaders::TestShader;

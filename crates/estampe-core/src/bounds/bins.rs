@@ -97,6 +97,8 @@ pub(crate) struct Bins {
     /// The index in `unsorted` of the first entry of the packet that is being binned: entries from
     /// there on may be merged.
     mergeable_from: usize,
+    /// True if there are so many entries that those of some tiles are sorted at a time.
+    waits: bool,
 }
 
 impl Bins {
@@ -105,6 +107,7 @@ impl Bins {
         self.sorted.clear();
         self.starts.clear();
         self.mergeable_from = 0;
+        self.waits = false;
     }
 
     pub(crate) fn push(&mut self, tiles: TileSpan, entry: BinEntry) {
@@ -130,10 +133,39 @@ impl Bins {
         self.unsorted.push((tile, new));
     }
 
-    /// Sorts the entries by tile, stably, by counting: linear in entries and in touched tiles'
-    /// span.
-    pub(crate) fn sort(&mut self) {
-        let tiles = self.unsorted.iter().map(|(tiles, _)| tiles.tiles());
+    /// The runs of tiles.
+    pub(crate) fn spans(&self) -> usize {
+        self.unsorted.len()
+    }
+
+    /// True if the entries [wait](Bins::sort) for their band of tiles.
+    pub(crate) fn waits(&self) -> bool {
+        self.waits
+    }
+
+    /// Sorts the entries by tile, or lets them wait if there are more than `most`.
+    pub(crate) fn sort(&mut self, most: u64) {
+        let counts = self.unsorted.iter().map(|(tiles, _)| tiles.tiles().len());
+        self.waits = counts.map(|tiles| tiles as u64).sum::<u64>() > most;
+        if !self.waits {
+            self.sort_those(TileSpan::tiles);
+        }
+    }
+
+    /// Sorts the entries of a band of tiles.
+    pub(crate) fn sort_band(&mut self, band: &Range<u32>) {
+        self.starts.clear();
+        self.sort_those(|span| {
+            let Range { start, end } = span.tiles();
+            start.max(band.start)..end.min(band.end)
+        });
+    }
+
+    /// Sorts the entries of some tiles of each span, stably, by counting: linear in spans, in the
+    /// entries and in touched tiles' span.
+    fn sort_those(&mut self, of: impl Fn(TileSpan) -> Range<u32>) {
+        let tiles = self.unsorted.iter().map(|(span, _)| of(*span));
+        let tiles = tiles.filter(|tiles| !tiles.is_empty());
         let ends = tiles.clone().map(|tiles| tiles.end);
         let (Some(first), Some(end)) = (tiles.map(|tiles| tiles.start).min(), ends.max()) else {
             return;
@@ -143,7 +175,10 @@ impl Bins {
         let tiles = (end - first) as usize;
         self.starts.resize(tiles + 2, 0);
         for (span, _) in &self.unsorted {
-            let Range { start, end } = span.tiles();
+            let Range { start, end } = of(*span);
+            if start >= end {
+                continue;
+            }
             let begins = &mut self.starts[(start - first) as usize + 1];
             *begins = begins.wrapping_add(1);
             let ends = &mut self.starts[(end - first) as usize + 1];
@@ -159,7 +194,10 @@ impl Bins {
         self.sorted.resize(entries as usize, BinEntry::Point(0));
         // Each start is advanced while its tile is filled, then all are moved back by one tile.
         for (span, entry) in &self.unsorted {
-            let Range { start, end } = span.tiles();
+            let Range { start, end } = of(*span);
+            if start >= end {
+                continue;
+            }
             for start in &mut self.starts[(start - first) as usize..(end - first) as usize] {
                 self.sorted[*start as usize] = *entry;
                 *start += 1;
@@ -173,6 +211,12 @@ impl Bins {
 
     /// Notes the tiles that have entries in a list of bits, which are not set yet.
     pub(crate) fn note_reached(&self, reached: &mut [u64]) {
+        if self.waits {
+            for tile in self.unsorted.iter().flat_map(|(tiles, _)| tiles.tiles()) {
+                reached[tile as usize / 64] |= 1 << (tile % 64);
+            }
+            return;
+        }
         for (tile, ends) in (self.first_tile as usize..).zip(self.starts.windows(2)) {
             reached[tile / 64] |= u64::from(ends[0] < ends[1]) << (tile % 64);
         }
@@ -201,7 +245,7 @@ mod tests {
         for (index, tile) in (0..).zip([7, 3, 7, 9, 3, 7]) {
             bins.push(TileSpan::of_tile(tile), BinEntry::Point(index));
         }
-        bins.sort();
+        bins.sort(u64::MAX);
         let points = |tile| -> Vec<u32> {
             let point = |entry: &BinEntry| match entry {
                 BinEntry::Point(point) => *point,
@@ -227,7 +271,7 @@ mod tests {
                 for &tile in &tiles {
                     bins.push(TileSpan::of_tile(tile), BinEntry::Point(tile));
                 }
-                bins.sort();
+                bins.sort(u64::MAX);
                 let mut reached = [0; 5];
                 bins.note_reached(&mut reached);
                 for tile in 0..320 {
@@ -247,7 +291,7 @@ mod tests {
         bins.push_lane(1, triangles(0b100));
         bins.end_packet();
         bins.push_lane(1, triangles(0b1000));
-        bins.sort();
+        bins.sort(u64::MAX);
         let expected = [triangles(0b101), triangles(0b1000)];
         assert_eq!(bins.of_tile(1), expected);
     }

@@ -9,6 +9,7 @@
 //! packets and entries of bins; primitives of two runs never do. Parts follow one another in
 //! submission order, and so do the entries of a tile.
 
+use super::bin_limits::{BinLimits, BinSizes};
 use super::bins::{BinEntry, Bins};
 use super::lines::LinePackets;
 use super::packets::TrianglePackets;
@@ -81,6 +82,23 @@ impl Chunk {
         self.clipped_varyings.clear();
         self.bins.clear();
         self.statistics = Statistics::default();
+    }
+
+    /// Sorts the bins, if that takes little memory, and notes the tiles that the chunk reaches in a
+    /// list of bits, which are not set yet.
+    pub(crate) fn sort_bins(&mut self, limits: BinLimits, reached: &mut [u64]) -> BinSizes {
+        self.bins.sort(limits.of_chunk);
+        self.bins.note_reached(reached);
+        let packets = (self.triangles.len() + self.lines.len()) * LANES;
+        let waiting = if self.bins.waits() {
+            packets + self.points.len()
+        } else {
+            0
+        };
+        BinSizes {
+            spans: self.bins.spans() as u64,
+            waiting: waiting as u64,
+        }
     }
 
     /// Notes that the triangles of the last packet are drawn one by one, and those of them that
@@ -270,7 +288,7 @@ mod tests {
         chunk.bins.push(TileSpan::of_tile(0), BinEntry::Point(1));
         chunk.triangles.push_stale();
         chunk.bins.push(TileSpan::of_tile(1), triangles(4));
-        chunk.bins.sort();
+        chunk.bins.sort(u64::MAX);
         let runs = |tile| -> Vec<(u32, Vec<BinEntry>)> {
             let runs = chunk.runs_of_tile(tile);
             runs.map(|(sub_draw, entries)| (sub_draw, entries.to_vec()))

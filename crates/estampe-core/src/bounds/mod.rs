@@ -3,7 +3,8 @@
 //! Geometry sets primitives up and writes them to [`chunk`]s, tiles read the chunks that reach
 //! them ([`chunk_index`]) in order, and nothing flows back.
 //!
-//! A chunk holds [`primitives`] and [`lines`], most of them in [`packets`], and their [`bins`].
+//! A chunk holds [`primitives`] and [`lines`], most of them in [`packets`], and their [`bins`],
+//! whose memory has [limits](bin_limits).
 //! [`pixel_rect`], [`sample_rect`], [`plane`], [`triangle_edges`] and [`transpose`] are the values
 //! and operations that both sides use. No module here names a stage.
 
@@ -24,6 +25,8 @@ pub(crate) mod lines;
 pub(crate) mod packets;
 
 pub(crate) mod triangle_edges;
+
+pub(crate) mod bin_limits;
 
 pub(crate) mod bins;
 

@@ -2,6 +2,7 @@
 
 use super::vertex_runs::{VertexJobs, VertexRuns};
 use super::{Context, Memory};
+use crate::bounds::bin_limits::BinSizes;
 use crate::bounds::chunk::Chunk;
 use crate::geometry::chunk::{ChunkScratch, Neighbours, add_part};
 use crate::geometry::shading::shade;
@@ -20,6 +21,13 @@ pub(super) struct ChunkJob<'a> {
     parts: &'a [ChunkPart],
     /// The tiles that the chunk reaches, one bit each.
     reached: &'a mut [u64],
+}
+
+/// Chunks that were made.
+#[derive(Debug, Default)]
+pub(super) struct Built {
+    pub(super) bins: BinSizes,
+    pub(super) statistics: Statistics,
 }
 
 /// Sub-draws of a group beyond which one thread divides their primitives while others shade
@@ -72,22 +80,22 @@ impl Context {
     }
 
     /// Geometry, second half: primitives are assembled, culled, clipped, set up and binned, in
-    /// the chunks of the plan. Where a chunk ends changes no result. The chunks of a group come
-    /// behind those of the groups before; gives how many they are, and what was counted.
+    /// some chunks of the plan. Where a chunk ends changes no result. They come behind `before` others.
     pub(super) fn build_chunks(
         &self,
         batch: &DrawBatch<'_>,
         samples: usize,
-        before: usize,
+        (planned, before): (Range<usize>, usize),
         memory: &mut Memory,
-    ) -> (usize, Statistics) {
-        let count = memory.chunk_plan.len();
+    ) -> Built {
+        let count = planned.len();
         if memory.chunks.len() < before + count {
             memory.chunks.resize_with(before + count, Chunk::default);
         }
         let mut jobs: Vec<ChunkJob<'_>> = recycled(std::mem::take(&mut memory.lists.chunk_jobs));
         let chunks = memory.chunks[before..].iter_mut();
-        let chunks = chunks.zip(memory.chunk_plan.chunks());
+        let plan = memory.chunk_plan.chunks();
+        let chunks = chunks.zip(plan.skip(planned.start));
         let chunks = chunks.zip(memory.chunk_index.add(count));
         jobs.extend(chunks.map(|((chunk, parts), reached)| ChunkJob {
             chunk,
@@ -95,7 +103,7 @@ impl Context {
             reached,
         }));
         let vertices = &memory.vertices;
-        let level = self.level;
+        let (level, limits) = (self.level, self.bin_limits);
         let build = |job: &mut ChunkJob<'_>, scratch: &mut ChunkScratch| {
             job.chunk.clear();
             let [triangles, lines] = batch.packets(job.parts);
@@ -118,20 +126,23 @@ impl Context {
                 add_part(part.sub_draw, &work, neighbours, job.chunk, scratch);
                 joins_last = joins_next;
             }
-            job.chunk.bins.sort();
-            job.chunk.bins.note_reached(job.reached);
             scratch.statistics += std::mem::take(&mut job.chunk.statistics);
+            job.chunk.sort_bins(limits, job.reached)
         };
-        let statistics = Mutex::new(Statistics::default());
+        let built = Mutex::new(Built::default());
         self.executor
             .for_each_worker(&mut jobs[..], &memory.chunk_scratch, |next, scratch| {
+                let mut bins = BinSizes::default();
                 while let Some(jobs) = next() {
-                    jobs.iter_mut().for_each(|job| build(job, scratch));
+                    for job in jobs {
+                        bins += build(job, scratch);
+                    }
                 }
-                *lock(&statistics) += std::mem::take(&mut scratch.statistics);
+                let mut built = lock(&built);
+                built.bins += bins;
+                built.statistics += std::mem::take(&mut scratch.statistics);
             });
         memory.lists.chunk_jobs = recycled(jobs);
-        let statistics = *lock(&statistics);
-        (count, statistics)
+        std::mem::take(&mut *lock(&built))
     }
 }

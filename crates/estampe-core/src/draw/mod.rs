@@ -5,6 +5,7 @@ mod tiles;
 mod vertex_runs;
 
 use crate::attachment::RenderTarget;
+use crate::bounds::bin_limits::{BinLimits, BinSizes};
 use crate::bounds::chunk::Chunk;
 use crate::bounds::chunk_index::ChunkIndex;
 use crate::commands::{Discards, Draw, RenderPass};
@@ -36,6 +37,7 @@ pub struct Context {
     executor: Executor,
     /// The calling thread, for passes whose shaders store in an order that can be seen.
     alone: Executor,
+    bin_limits: BinLimits,
     /// Memory that no pass uses now: one for each pass that was drawn beside others.
     memory: Mutex<Vec<Memory>>,
 }
@@ -68,6 +70,22 @@ impl Memory {
         memory.chunk_scratch.resize_with(workers, Mutex::default);
         memory
     }
+}
+
+/// A pass that is being drawn.
+#[derive(Debug)]
+struct Drawing<'a> {
+    pass: &'a RenderPass<'a>,
+    /// What is cleared before the next batch.
+    clear: Clear,
+    target: &'a mut RenderTarget,
+}
+
+/// The chunks of a batch that were made since tiles were drawn.
+#[derive(Debug, Clone, Copy, Default)]
+struct BatchChunks {
+    count: usize,
+    bins: BinSizes,
 }
 
 /// Lists whose elements borrow from a pass, empty between passes: see [`recycled`](crate::recycle::recycled).
@@ -103,12 +121,21 @@ impl Context {
         Self::on(Executor::profiling(threads), level)
     }
 
+    /// The context with so little memory for bins that small pictures meet its limits: for tests.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn with_small_bins(self) -> Self {
+        let bin_limits = BinLimits::SMALL;
+        Self { bin_limits, ..self }
+    }
+
     fn on(executor: Executor, level: Level) -> Self {
         let memory = Mutex::new(vec![Memory::new(executor.threads())]);
         Self {
             level,
             executor,
             alone: Executor::alone(),
+            bin_limits: BinLimits::DEFAULT,
             memory,
         }
     }
@@ -213,27 +240,54 @@ impl Context {
         let parts = parts.into_iter().map(DrawBatch::recycled).collect();
         let mut cursor = DrawCursor::new(pass.draws, self.level, parts);
         let mut batch = std::mem::take(&mut memory.lists.batch).recycled();
-        let mut clear = Clear::new(target, pass);
+        let mut drawing = Drawing {
+            pass,
+            clear: Clear::new(target, pass),
+            target,
+        };
         let mut is_cancelled = false;
+        // As many primitives at a time as cannot take more than the memory of a batch.
+        let most_spans = drawing.target.grid().most_spans();
+        let primitives = self.bin_limits.spans / most_spans;
         loop {
             let start = Instant::now();
             batch.clear();
-            memory.chunk_index.begin(target.grid().tiles());
-            let mut chunks = 0;
-            while let Some(group) = cursor.next_group(executor, target, &mut batch) {
+            let tiles = drawing.target.grid().tiles();
+            memory.chunk_index.begin(tiles);
+            let mut chunks = BatchChunks::default();
+            while chunks.bins.spans < self.bin_limits.spans
+                && let Some(group) = cursor.next_group(executor, drawing.target, &mut batch)
+            {
                 is_cancelled = pass.control.is_cancelled();
                 if is_cancelled {
                     break;
                 }
                 self.shade_vertices(executor, (&batch, group), memory);
-                let samples = target.samples() as usize;
-                let (count, built) = self.build_chunks(&batch, samples, chunks, memory);
-                chunks += count;
-                statistics += built;
                 statistics.groups_of_geometry += 1;
+                let samples = drawing.target.samples() as usize;
+                let all = memory.chunk_plan.len();
+                let mut planned = 0..0;
+                while planned.end < all {
+                    if chunks.bins.spans >= self.bin_limits.spans {
+                        statistics += self.draw_batch(
+                            executor,
+                            &mut drawing,
+                            (&batch, chunks, false),
+                            memory,
+                        )?;
+                        memory.chunk_index.begin(tiles);
+                        chunks = BatchChunks::default();
+                    }
+                    planned = planned.end..memory.chunk_plan.end_of_some(planned.end, primitives);
+                    let places = (planned.clone(), chunks.count);
+                    let built = self.build_chunks(&batch, samples, places, memory);
+                    chunks.count += planned.len();
+                    chunks.bins += built.bins;
+                    statistics += built.statistics;
+                }
             }
             if batch.sub_draws.is_empty() {
-                if clear.is_done() {
+                if drawing.clear.is_done() {
                     break;
                 }
                 is_cancelled = pass.control.is_cancelled();
@@ -242,34 +296,12 @@ impl Context {
                 break;
             }
             statistics.geometry += start.elapsed();
-            let start = Instant::now();
             let is_last = cursor.is_at_end();
-            // What a batch before has drawn is in the images: nothing is cleared then.
-            let discards = if is_last {
-                clear.cleared(pass.discards, target)
-            } else {
-                Discards::default()
-            };
-            let taken = target.take_memory(discards);
-            statistics.images_given_memory += taken.map_err(out_of_memory)?;
-            let attachments = TileAttachments {
-                target: &mut *target,
-                clear: &clear,
-                is_last,
-                discards,
-            };
-            statistics += self.draw_tiles(
-                executor,
-                (attachments, pass.occlusion_queries),
-                &batch,
-                chunks,
-                memory,
-            )?;
-            statistics.raster += start.elapsed();
+            statistics +=
+                self.draw_batch(executor, &mut drawing, (&batch, chunks, is_last), memory)?;
             statistics.vertices_shaded += batch.shaded as u64;
             statistics.primitives_in += batch.invisible_primitives;
             statistics.primitives_culled += batch.invisible_primitives;
-            clear = Clear::default();
             pass.control
                 .report(pass.draws.len() - cursor.draws_left(), pass.draws.len());
         }
@@ -279,6 +311,44 @@ impl Context {
         if is_cancelled {
             return Err(RenderPassError::Cancelled);
         }
+        Ok(statistics)
+    }
+
+    /// Draws the chunks of a batch so far; `is_last` says that nothing is drawn after them.
+    fn draw_batch(
+        &self,
+        executor: &Executor,
+        drawing: &mut Drawing<'_>,
+        (batch, chunks, is_last): (&DrawBatch<'_>, BatchChunks, bool),
+        memory: &mut Memory,
+    ) -> Result<Statistics, RenderPassError> {
+        let start = Instant::now();
+        let Drawing {
+            pass,
+            clear,
+            target,
+        } = drawing;
+        // What a batch before has drawn is in the images: nothing is cleared then.
+        let discards = if is_last {
+            clear.cleared(pass.discards, target)
+        } else {
+            Discards::default()
+        };
+        let taken = target.take_memory(discards);
+        let given = taken.map_err(out_of_memory)?;
+        let attachments = TileAttachments {
+            target,
+            clear,
+            is_last,
+            discards,
+        };
+        let queries = pass.occlusion_queries;
+        let mut statistics =
+            self.draw_tiles(executor, (attachments, queries), (batch, chunks), memory)?;
+        statistics.batches += 1;
+        statistics.images_given_memory += given;
+        statistics.raster += start.elapsed();
+        *clear = Clear::default();
         Ok(statistics)
     }
 

@@ -1,14 +1,15 @@
 //! The tile side of a pass: every tile consumes the chunks in order.
 
-use super::{Context, Memory, out_of_memory};
+use super::{BatchChunks, Context, Memory, out_of_memory};
 use crate::attachment::{RenderTarget, RowsPlace};
+use crate::bounds::chunk::Chunk;
 use crate::bounds::pixel_rect::PixelRect;
 use crate::commands::{Discards, OcclusionQueries};
 use crate::plan::draw_batch::DrawBatch;
 use crate::plan::pass_check::RenderPassError;
 use crate::plan::tile_plan::TargetFacts;
 use crate::recycle::recycled;
-use crate::schedule::{Executor, lock};
+use crate::schedule::{Executor, Jobs, lock};
 use crate::statistics::Statistics;
 use crate::tile_pass::{
     self, Clear, MAX_TARGETS, TileJobs, TilePass, TileScratch, TileStores, TileWords,
@@ -34,8 +35,7 @@ impl Context {
         &self,
         executor: &Executor,
         (attachments, occlusion_queries): (TileAttachments<'_>, Option<&OcclusionQueries>),
-        batch: &DrawBatch<'_>,
-        chunks: usize,
+        (batch, chunks): (&DrawBatch<'_>, BatchChunks),
         memory: &mut Memory,
     ) -> Result<Statistics, RenderPassError> {
         let TileAttachments {
@@ -59,7 +59,6 @@ impl Context {
         for rows in target.rows.iter_mut().filter(|_| is_last) {
             rows.is_done = rows.words_mut().is_some();
         }
-        let chunks = &memory.chunks[..chunks];
         memory.chunk_index.build();
         let facts = TargetFacts {
             level: self.level,
@@ -74,29 +73,39 @@ impl Context {
         batch.tile_plans(executor, (&states, &memory.vertices), &mut plans);
         let (grid, size) = (target.grid(), target.size);
         let keeps_depths = is_last && !discards.depth_stencil;
-        let (jobs, stores) = TileJobs::of_target(target, keeps_depths);
+        let (mut jobs, stores) = TileJobs::of_target(target, keeps_depths);
         let places: Vec<RowsPlace> = stores.rows.iter().map(|rows| rows.place).collect();
-        let pass = TilePass {
-            level: self.level,
-            grid,
-            target: PixelRect::of_target(None, size.width, size.height),
-            plans: &plans,
-            chunks,
-            chunk_index: &memory.chunk_index,
-            clear: *clear,
-            samples: facts.samples,
-            occlusion_queries,
-            discards,
-            worker_words: &words,
-            resolved,
-            rows: &places,
-        };
-        let pass = (&pass, &stores);
-        let mut statistics = match facts.samples {
-            1 if !self.level.is_scalar() => memory.tiles_1.draw(executor, pass, jobs),
-            4 if !self.level.is_scalar() => memory.tiles_4.draw(executor, pass, jobs),
-            _ => memory.tiles_many.draw(executor, pass, jobs),
-        };
+        let tiles_of_band = self.bin_limits.tiles_of_band(chunks.bins.waiting);
+        let mut statistics = Statistics::default();
+        while jobs.left() > 0 {
+            let band = jobs.take_first(tiles_of_band);
+            let chunks = &mut memory.chunks[..chunks.count];
+            if tiles_of_band < usize::MAX {
+                sort_band(executor, chunks, &band);
+                statistics.bands_of_tiles += 1;
+            }
+            let pass = TilePass {
+                level: self.level,
+                grid,
+                target: PixelRect::of_target(None, size.width, size.height),
+                plans: &plans,
+                chunks,
+                chunk_index: &memory.chunk_index,
+                clear: *clear,
+                samples: facts.samples,
+                occlusion_queries,
+                discards,
+                worker_words: &words,
+                resolved,
+                rows: &places,
+            };
+            let pass = (&pass, &stores);
+            statistics += match facts.samples {
+                1 if !self.level.is_scalar() => memory.tiles_1.draw(executor, pass, band),
+                4 if !self.level.is_scalar() => memory.tiles_4.draw(executor, pass, band),
+                _ => memory.tiles_many.draw(executor, pass, band),
+            };
+        }
         if grid != size.grid() {
             statistics.tiles_for_threads += grid.tiles() as u64;
         }
@@ -104,6 +113,16 @@ impl Context {
         memory.lists.tile_states = recycled(states);
         Ok(statistics)
     }
+}
+
+/// Sorts what waits of a band of tiles.
+fn sort_band(executor: &Executor, chunks: &mut [Chunk], band: &TileJobs<'_>) {
+    let tiles = band.tiles();
+    executor.for_each_alone(chunks, |chunk| {
+        if chunk.bins.waits() {
+            chunk.bins.sort_band(&tiles);
+        }
+    });
 }
 
 /// Memory of the workers that draw tiles of `N` samples.

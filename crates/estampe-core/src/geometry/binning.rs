@@ -382,7 +382,7 @@ mod tests {
                 let positions = [[load(x[0]), load(x[1]), load(x[2])], [load(y[0]), load(y[1]), load(y[2])]];
                 bin_packet(s, plan, positions, 0, &mut chunk);
             });
-            chunk.bins.sort();
+            chunk.bins.sort(u64::MAX);
             for tile in 0..u32::try_from(plan.grid.tiles()).unwrap() {
                 let mut found = 0;
                 for entry in chunk.bins.of_tile(tile) {

@@ -124,6 +124,21 @@ impl ChunkPlan {
         self.ends.len()
     }
 
+    /// The end of those chunks from a first one on that have so many primitives together, at least
+    /// one chunk.
+    pub(crate) fn end_of_some(&self, first: usize, most: u64) -> usize {
+        let mut primitives = 0;
+        let chunks = self.chunks().enumerate().skip(first);
+        for (number, parts) in chunks {
+            let of_part = |part: &ChunkPart| u64::from(part.primitives[1] - part.primitives[0]);
+            primitives += parts.iter().map(of_part).sum::<u64>();
+            if primitives > most {
+                return number.max(first + 1);
+            }
+        }
+        self.len()
+    }
+
     /// The parts of each chunk, in order.
     pub(crate) fn chunks(&self) -> impl Iterator<Item = &[ChunkPart]> {
         let mut from = 0;
@@ -186,6 +201,25 @@ mod tests {
             vec![(3, [8192, 9000]), (4, [0, 5])],
         ];
         assert_eq!(chunks, expected);
+    }
+
+    #[test]
+    fn some_chunks_have_few_primitives_together() {
+        let ends = vec![1, 2, 3, 4];
+        let parts = [3, 4, 5, 100].map(|end| ChunkPart {
+            sub_draw: 0,
+            primitives: [0, end],
+        });
+        let plan = ChunkPlan {
+            parts: parts.to_vec(),
+            ends,
+            most: Most::default(),
+        };
+        let ends = |most| [0, 1, 2, 3].map(|first| plan.end_of_some(first, most));
+        assert_eq!(ends(u64::MAX), [4; 4]);
+        assert_eq!(ends(0), [1, 2, 3, 4]);
+        assert_eq!(ends(9), [2, 3, 3, 4]);
+        assert_eq!(ends(12), [3, 3, 3, 4]);
     }
 
     #[test]

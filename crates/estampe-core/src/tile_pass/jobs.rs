@@ -100,6 +100,11 @@ impl<'a> TileJobs<'a> {
         (jobs, stores)
     }
 
+    /// The tiles.
+    pub(crate) fn tiles(&self) -> Range<u32> {
+        self.tiles.clone()
+    }
+
     /// Takes the first tile off.
     pub(super) fn take_tile(&mut self) -> Option<TileJob<'a>> {
         let tile = self.tiles.next()?;

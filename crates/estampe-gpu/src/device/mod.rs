@@ -105,6 +105,17 @@ impl Device {
         }
     }
 
+    /// The device with so little memory for the bins of its passes that small pictures meet its
+    /// limits: for tests.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn with_small_bins(self) -> Self {
+        Self {
+            context: self.context.with_small_bins(),
+            ..self
+        }
+    }
+
     /// The times of all jobs since the last call. Empty unless the device was created by
     /// [`Device::profiling`].
     #[must_use]

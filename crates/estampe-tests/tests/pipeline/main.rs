@@ -10,6 +10,7 @@ mod depth_bias;
 mod depth_maps;
 mod depth_precision;
 mod fragment_ops;
+mod full_bins;
 mod geometry_shader;
 mod gradients;
 mod indirect;
