@@ -27,8 +27,11 @@ pub struct Statistics {
     pub primitives_culled: u64,
     /// Primitives that were set up and binned, clipping's pieces counted one by one.
     pub primitives_binned: u64,
-    /// Bands of tiles that were drawn one after the other, as the bins of all tiles would have taken
-    /// much memory.
+    /// Tiles that several threads drew the dearest first.
+    #[doc(hidden)]
+    pub tiles_by_cost: u64,
+    /// Bands of tiles that were drawn one after the other, as the bins of all tiles would have
+    /// taken much memory.
     #[doc(hidden)]
     pub bands_of_tiles: u64,
     /// Triangles whose positions were gathered in pairs of words, where the processor is fast at
@@ -184,6 +187,7 @@ impl std::ops::AddAssign for Statistics {
         self.primitives_clipped += other.primitives_clipped;
         self.primitives_culled += other.primitives_culled;
         self.primitives_binned += other.primitives_binned;
+        self.tiles_by_cost += other.tiles_by_cost;
         self.bands_of_tiles += other.bands_of_tiles;
         self.triangles_gathered_in_pairs += other.triangles_gathered_in_pairs;
         self.lines_in_packets += other.lines_in_packets;

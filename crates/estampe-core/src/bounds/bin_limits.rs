@@ -1,9 +1,9 @@
 //! How much memory bins take, whatever is drawn.
 //!
-//! A primitive that covers the whole target has an entry for each tile: of millions of those, or in
-//! the largest target, the entries of all tiles together would take gigabytes. So a batch ends when
-//! its bins are full, and where a chunk has far more entries than primitives, the tiles are drawn in
-//! bands, and the chunk's entries are sorted band by band.
+//! A primitive that covers the whole target has an entry for each tile: of millions of those, or
+//! in the largest target, the entries of all tiles together would take gigabytes. So a batch ends
+//! when its bins are full, and where a chunk has far more entries than primitives, the tiles are
+//! drawn in bands, and the chunk's entries are sorted band by band.
 
 /// The most that bins hold.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -1,7 +1,9 @@
 //! Bins: the entries of a chunk, sorted by the tiles that they touch.
 
+use super::tile_costs;
 use crate::layout::{BLOCK, MAX_SIDE};
 use std::ops::Range;
+use std::sync::atomic::AtomicU32;
 
 /// The primitives that one bin entry stands for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -219,6 +221,17 @@ impl Bins {
         }
         for (tile, ends) in (self.first_tile as usize..).zip(self.starts.windows(2)) {
             reached[tile / 64] |= u64::from(ends[0] < ends[1]) << (tile % 64);
+        }
+    }
+
+    /// Adds the number of entries of each tile, by tile, to those of other chunks; nothing while
+    /// they wait.
+    pub(crate) fn add_costs(&self, entries: &[AtomicU32]) {
+        let tiles = entries.iter().skip(self.first_tile as usize);
+        for (entries, ends) in tiles.zip(self.starts.windows(2)) {
+            if ends[0] < ends[1] {
+                tile_costs::add(entries, ends[1] - ends[0]);
+            }
         }
     }
 

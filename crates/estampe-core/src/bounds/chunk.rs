@@ -16,6 +16,7 @@ use super::packets::TrianglePackets;
 use super::primitives::{PackedTriangle, PointPrimitive, TrianglePacket};
 use crate::statistics::Statistics;
 use estampe_simd::LANES;
+use std::sync::atomic::AtomicU32;
 
 /// The primitives of one sub-draw in a chunk, or of several that are rasterized alike: from these
 /// first ones on up to those of the next run.
@@ -84,11 +85,18 @@ impl Chunk {
         self.statistics = Statistics::default();
     }
 
-    /// Sorts the bins, if that takes little memory, and notes the tiles that the chunk reaches in a
-    /// list of bits, which are not set yet.
-    pub(crate) fn sort_bins(&mut self, limits: BinLimits, reached: &mut [u64]) -> BinSizes {
+    /// Sorts the bins, if that takes little memory, notes the tiles that the chunk reaches in a
+    /// list of bits, which are not set yet, and adds to what tiles cost.
+    pub(crate) fn sort_bins(
+        &mut self,
+        limits: BinLimits,
+        (reached, costs): (&mut [u64], &[AtomicU32]),
+    ) -> BinSizes {
         self.bins.sort(limits.of_chunk);
         self.bins.note_reached(reached);
+        if !costs.is_empty() {
+            self.bins.add_costs(costs);
+        }
         let packets = (self.triangles.len() + self.lines.len()) * LANES;
         let waiting = if self.bins.waits() {
             packets + self.points.len()

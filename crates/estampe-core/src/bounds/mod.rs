@@ -1,7 +1,8 @@
 //! The boundary between geometry and tiles: the plain data that both sides name.
 //!
 //! Geometry sets primitives up and writes them to [`chunk`]s, tiles read the chunks that reach
-//! them ([`chunk_index`]) in order, and nothing flows back.
+//! them ([`chunk_index`]) in order, and nothing flows back. Threads take the dearest tiles first
+//! ([`tile_costs`]).
 //!
 //! A chunk holds [`primitives`] and [`lines`], most of them in [`packets`], and their [`bins`],
 //! whose memory has [limits](bin_limits).
@@ -33,3 +34,5 @@ pub(crate) mod bins;
 pub(crate) mod chunk;
 
 pub(crate) mod chunk_index;
+
+pub(crate) mod tile_costs;

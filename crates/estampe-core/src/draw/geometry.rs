@@ -80,7 +80,8 @@ impl Context {
     }
 
     /// Geometry, second half: primitives are assembled, culled, clipped, set up and binned, in
-    /// some chunks of the plan. Where a chunk ends changes no result. They come behind `before` others.
+    /// some chunks of the plan. Where a chunk ends changes no result. They come behind `before`
+    /// others.
     pub(super) fn build_chunks(
         &self,
         batch: &DrawBatch<'_>,
@@ -104,6 +105,7 @@ impl Context {
         }));
         let vertices = &memory.vertices;
         let (level, limits) = (self.level, self.bin_limits);
+        let costs = memory.tile_costs.entries();
         let build = |job: &mut ChunkJob<'_>, scratch: &mut ChunkScratch| {
             job.chunk.clear();
             let [triangles, lines] = batch.packets(job.parts);
@@ -127,7 +129,7 @@ impl Context {
                 joins_last = joins_next;
             }
             scratch.statistics += std::mem::take(&mut job.chunk.statistics);
-            job.chunk.sort_bins(limits, job.reached)
+            job.chunk.sort_bins(limits, (job.reached, costs))
         };
         let built = Mutex::new(Built::default());
         self.executor

@@ -8,6 +8,7 @@ use crate::attachment::RenderTarget;
 use crate::bounds::bin_limits::{BinLimits, BinSizes};
 use crate::bounds::chunk::Chunk;
 use crate::bounds::chunk_index::ChunkIndex;
+use crate::bounds::tile_costs::TileCosts;
 use crate::commands::{Discards, Draw, RenderPass};
 use crate::geometry::chunk::ChunkScratch;
 use crate::geometry::shaded_vertices::ShadedVertices;
@@ -22,7 +23,7 @@ use crate::raster::MAX_SAMPLES;
 use crate::schedule::{Awake, Executor, ThreadError, ThreadPool};
 use crate::segments::Segments;
 use crate::statistics::Statistics;
-use crate::tile_pass::Clear;
+use crate::tile_pass::{Clear, TileShares};
 use estampe_simd::Level;
 use geometry::ChunkJob;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -50,6 +51,7 @@ pub(crate) struct Memory {
     chunk_plan: ChunkPlan,
     chunks: Vec<Chunk>,
     chunk_index: ChunkIndex,
+    tile_costs: TileCosts,
     shading: Vec<Mutex<ShadingScratch>>,
     chunk_scratch: Vec<Mutex<ChunkScratch>>,
     tiles_1: TileWorkers<1>,
@@ -58,6 +60,13 @@ pub(crate) struct Memory {
 }
 
 impl Memory {
+    /// Begins the chunks of a batch, which so many threads draw in so many tiles.
+    fn begin_chunks(&mut self, tiles: usize, threads: usize) -> BatchChunks {
+        self.chunk_index.begin(tiles);
+        self.tile_costs.begin(tiles, threads);
+        BatchChunks::default()
+    }
+
     /// Memory for so many workers.
     fn new(workers: usize) -> Self {
         let mut memory = Self {
@@ -97,6 +106,7 @@ struct Lists {
     chunk_jobs: Vec<ChunkJob<'static>>,
     tile_states: Vec<TileState<'static>>,
     plans: Segments<TilePlan<'static>>,
+    tile_shares: TileShares<'static>,
 }
 
 impl Context {
@@ -253,8 +263,7 @@ impl Context {
             let start = Instant::now();
             batch.clear();
             let tiles = drawing.target.grid().tiles();
-            memory.chunk_index.begin(tiles);
-            let mut chunks = BatchChunks::default();
+            let mut chunks = memory.begin_chunks(tiles, executor.threads());
             while chunks.bins.spans < self.bin_limits.spans
                 && let Some(group) = cursor.next_group(executor, drawing.target, &mut batch)
             {
@@ -275,8 +284,7 @@ impl Context {
                             (&batch, chunks, false),
                             memory,
                         )?;
-                        memory.chunk_index.begin(tiles);
-                        chunks = BatchChunks::default();
+                        chunks = memory.begin_chunks(tiles, executor.threads());
                     }
                     planned = planned.end..memory.chunk_plan.end_of_some(planned.end, primitives);
                     let places = (planned.clone(), chunks.count);

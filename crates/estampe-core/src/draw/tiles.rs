@@ -8,11 +8,13 @@ use crate::commands::{Discards, OcclusionQueries};
 use crate::plan::draw_batch::DrawBatch;
 use crate::plan::pass_check::RenderPassError;
 use crate::plan::tile_plan::TargetFacts;
+use crate::raster::MAX_SAMPLES;
 use crate::recycle::recycled;
 use crate::schedule::{Executor, Jobs, lock};
 use crate::statistics::Statistics;
 use crate::tile_pass::{
-    self, Clear, MAX_TARGETS, TileJobs, TilePass, TileScratch, TileStores, TileWords,
+    self, Clear, MAX_TARGETS, TileJobs, TilePass, TileQueue, TileScratch, TileShares, TileStores,
+    TileWords,
 };
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, PoisonError};
@@ -75,36 +77,52 @@ impl Context {
         let keeps_depths = is_last && !discards.depth_stencil;
         let (mut jobs, stores) = TileJobs::of_target(target, keeps_depths);
         let places: Vec<RowsPlace> = stores.rows.iter().map(|rows| rows.place).collect();
-        let tiles_of_band = self.bin_limits.tiles_of_band(chunks.bins.waiting);
+        let workers = Workers {
+            executor,
+            tiles_1: &memory.tiles_1,
+            tiles_4: &memory.tiles_4,
+            tiles_many: &memory.tiles_many,
+        };
+        let pass = TilePass {
+            level: self.level,
+            grid,
+            target: PixelRect::of_target(None, size.width, size.height),
+            plans: &plans,
+            chunks: &[],
+            chunk_index: &memory.chunk_index,
+            clear: *clear,
+            samples: facts.samples,
+            occlusion_queries,
+            discards,
+            worker_words: &words,
+            resolved,
+            rows: &places,
+        };
+        let chunks_made = &mut memory.chunks[..chunks.count];
         let mut statistics = Statistics::default();
-        while jobs.left() > 0 {
+        let tiles_of_band = self.bin_limits.tiles_of_band(chunks.bins.waiting);
+        while tiles_of_band < usize::MAX && jobs.left() > 0 {
             let band = jobs.take_first(tiles_of_band);
-            let chunks = &mut memory.chunks[..chunks.count];
-            if tiles_of_band < usize::MAX {
-                sort_band(executor, chunks, &band);
-                statistics.bands_of_tiles += 1;
-            }
-            let pass = TilePass {
-                level: self.level,
-                grid,
-                target: PixelRect::of_target(None, size.width, size.height),
-                plans: &plans,
-                chunks,
-                chunk_index: &memory.chunk_index,
-                clear: *clear,
-                samples: facts.samples,
-                occlusion_queries,
-                discards,
-                worker_words: &words,
-                resolved,
-                rows: &places,
-            };
-            let pass = (&pass, &stores);
-            statistics += match facts.samples {
-                1 if !self.level.is_scalar() => memory.tiles_1.draw(executor, pass, band),
-                4 if !self.level.is_scalar() => memory.tiles_4.draw(executor, pass, band),
-                _ => memory.tiles_many.draw(executor, pass, band),
-            };
+            sort_band(executor, chunks_made, &band);
+            let chunks = &*chunks_made;
+            let pass = TilePass { chunks, ..pass };
+            statistics += workers.draw(&pass, &stores, TileQueue::Stored(band));
+            statistics.bands_of_tiles += 1;
+        }
+        let chunks = &*chunks_made;
+        let pass = TilePass { chunks, ..pass };
+        if let Some(order) = memory
+            .tile_costs
+            .dearest_first()
+            .filter(|_| jobs.left() > 0)
+        {
+            let mut shares = TileShares::new(jobs, std::mem::take(&mut memory.lists.tile_shares));
+            let queue = TileQueue::Ordered(order, &mut shares);
+            statistics += workers.draw(&pass, &stores, queue);
+            statistics.tiles_by_cost += order.len() as u64;
+            memory.lists.tile_shares = shares.recycled();
+        } else {
+            statistics += workers.draw(&pass, &stores, TileQueue::Stored(jobs));
         }
         if grid != size.grid() {
             statistics.tiles_for_threads += grid.tiles() as u64;
@@ -123,6 +141,31 @@ fn sort_band(executor: &Executor, chunks: &mut [Chunk], band: &TileJobs<'_>) {
             chunk.bins.sort_band(&tiles);
         }
     });
+}
+
+/// The workers that draw tiles.
+struct Workers<'a> {
+    executor: &'a Executor,
+    tiles_1: &'a TileWorkers<1>,
+    tiles_4: &'a TileWorkers<4>,
+    tiles_many: &'a TileWorkers<MAX_SAMPLES>,
+}
+
+impl Workers<'_> {
+    /// Draws tiles; gives what was counted.
+    fn draw(
+        &self,
+        pass: &TilePass<'_>,
+        stores: &TileStores<'_>,
+        tiles: TileQueue<'_, '_>,
+    ) -> Statistics {
+        let (executor, is_scalar) = (self.executor, pass.level.is_scalar());
+        match pass.samples {
+            1 if !is_scalar => self.tiles_1.draw(executor, (pass, stores), tiles),
+            4 if !is_scalar => self.tiles_4.draw(executor, (pass, stores), tiles),
+            _ => self.tiles_many.draw(executor, (pass, stores), tiles),
+        }
+    }
 }
 
 /// Memory of the workers that draw tiles of `N` samples.
@@ -168,13 +211,13 @@ impl<const N: usize> TileWorkers<N> {
         &self,
         executor: &Executor,
         pass: (&TilePass<'_>, &TileStores<'_>),
-        jobs: TileJobs<'_>,
+        tiles: TileQueue<'_, '_>,
     ) -> Statistics {
         let statistics = Mutex::new(Statistics::default());
-        executor.for_each_worker(jobs, &self.scratch, |next, scratch| {
+        executor.for_each_worker(tiles, &self.scratch, |next, scratch| {
             let scratch = scratch.get_or_insert_default();
-            while let Some(jobs) = next() {
-                tile_pass::draw(pass, jobs, scratch);
+            while let Some(tiles) = next() {
+                tile_pass::draw(pass, tiles.into_jobs(), scratch);
             }
             *lock(&statistics) += scratch.end_pass();
         });

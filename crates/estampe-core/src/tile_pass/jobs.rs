@@ -2,7 +2,7 @@
 //!
 //! Tiles follow one another in memory, so the tiles that are left are slices of the attachments,
 //! and so are those that a worker takes. A list of all tiles would be made by one thread while all
-//! others wait.
+//! others wait: only where some are much dearer than others (`tile_queue.rs`).
 
 use super::{MAX_TARGETS, TileJob, TileStores};
 use crate::attachment::{RenderTarget, StoredRows};
@@ -27,11 +27,20 @@ pub(crate) struct TileJobs<'a> {
 /// An attachment's share of tiles that follow one another, in packets of sixteen elements. Nothing
 /// where there is no such attachment, or no memory of it.
 #[derive(Debug, Default)]
-struct TilePackets<'a, T> {
-    packets: &'a mut [[T; LANES]],
+pub(super) struct TilePackets<'a, T> {
+    pub(super) packets: &'a mut [[T; LANES]],
     /// Packets of a tile.
-    of_tile: usize,
+    pub(super) of_tile: usize,
 }
+
+/// The attachments of some tiles: how many colours there are, these and the images that they are
+/// resolved into, depths and stencil values.
+type Packets<'a> = (
+    usize,
+    [[TilePackets<'a, u32>; MAX_TARGETS]; 2],
+    TilePackets<'a, f32>,
+    TilePackets<'a, u8>,
+);
 
 impl<'a, T> TilePackets<'a, T> {
     /// An attachment of so many elements a tile.
@@ -98,6 +107,25 @@ impl<'a> TileJobs<'a> {
             stores.bounds = bounds;
         }
         (jobs, stores)
+    }
+
+    /// The shares of all tiles.
+    pub(super) fn into_packets(self) -> Packets<'a> {
+        let colors = [self.colors, self.resolved];
+        (self.targets, colors, self.depth, self.stencil)
+    }
+
+    /// One tile with its share.
+    pub(super) fn of_tile(tile: u32, share: Packets<'a>) -> Self {
+        let (targets, [colors, resolved], depth, stencil) = share;
+        Self {
+            tiles: tile..tile + 1,
+            targets,
+            colors,
+            depth,
+            stencil,
+            resolved,
+        }
     }
 
     /// The tiles.

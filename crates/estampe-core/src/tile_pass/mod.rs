@@ -11,12 +11,14 @@ mod fragments;
 mod in_order;
 mod jobs;
 mod next_tile;
+mod tile_queue;
 mod upcoming_runs;
 mod visibility;
 mod worker_tile;
 
 pub(crate) use clear::Clear;
 pub(crate) use jobs::TileJobs;
+pub(crate) use tile_queue::{TileQueue, TileShares};
 pub(crate) use worker_tile::TileWords;
 
 use crate::attachment::resolve::ResolveJob;

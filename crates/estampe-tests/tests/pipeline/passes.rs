@@ -288,3 +288,34 @@ fn tiles_are_smaller_where_they_are_few_for_the_threads() {
     );
     assert!(statistics.tiles_for_threads > 0, "no tile was smaller");
 }
+
+/// Many threads draw the tiles that most primitives reach first.
+///
+/// Rows: R2, R6, O8.
+#[test]
+fn tiles_that_cost_more_are_drawn_first() {
+    let statistics = check_paths(
+        "passes/dearest first",
+        24,
+        ExpectedPaths::default(),
+        |random| {
+            let size = random.pick(&[[200, 150], [256, 190], [130, 240]]);
+            let mut case = Case::new(size, random.pick(&[1, 1, 4, 8]));
+            case.clear_color = random.four(-0.5, 1.5);
+            case.draws.push(any_draw(random, size, 4));
+            // Many more in one corner.
+            let [width, height] = size.map(|side| side / 2);
+            let mut crowd = any_draw(random, [width, height], 40);
+            crowd.scissor = Some(ScissorRect {
+                x: width / 2,
+                y: height / 2,
+                width,
+                height,
+            });
+            case.draws.push(crowd);
+            case.second_pass = random.index(3);
+            case
+        },
+    );
+    assert!(statistics.tiles_by_cost > 0, "tiles stayed in their order");
+}
