@@ -296,6 +296,36 @@ mod tests {
     }
 
     #[test]
+    fn entries_beyond_the_limit_wait_for_their_band() {
+        let mut bins = Bins::default();
+        for (index, tile) in (0..).zip([3, 40, 90]) {
+            bins.push(TileSpan::new(tile, 100), BinEntry::Point(index));
+        }
+        bins.sort(300);
+        assert!(!bins.waits());
+        assert_eq!(bins.sorted.len(), 300);
+        let all: Vec<Vec<BinEntry>> = (0..200).map(|tile| bins.of_tile(tile).to_vec()).collect();
+        let mut reached = [[0; 4]; 2];
+        bins.note_reached(&mut reached[0]);
+        bins.sort(299);
+        assert!(bins.waits());
+        bins.note_reached(&mut reached[1]);
+        assert_eq!(reached[0], reached[1]);
+        for first in [190, 0, 60, 120] {
+            let band = first..first + 60;
+            bins.sort_band(&band);
+            for (tile, entries) in (0..).zip(&all) {
+                let wanted = if band.contains(&tile) {
+                    entries
+                } else {
+                    &vec![]
+                };
+                assert_eq!(bins.of_tile(tile), wanted, "tile {tile} of {band:?}");
+            }
+        }
+    }
+
+    #[test]
     fn lanes_merge_only_until_the_packet_ends() {
         let mut bins = Bins::default();
         let triangles = |lanes| BinEntry::Triangles { packet: 0, lanes };
