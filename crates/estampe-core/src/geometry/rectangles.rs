@@ -127,7 +127,11 @@ fn have_same_planes<'a>(
     lower: [VertexRef; 3],
     varyings_of: impl Fn(VertexRef) -> &'a [f32],
 ) -> bool {
-    let [a, b, d] = upper.map(&varyings_of);
+    let [a, b, d] = [
+        varyings_of(upper[0]),
+        varyings_of(upper[1]),
+        varyings_of(upper[2]),
+    ];
     let mut all = true;
     if [upper[0], upper[2]] != [lower[0], lower[2]] {
         let ends = a.iter().chain(d);
