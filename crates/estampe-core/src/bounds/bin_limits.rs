@@ -17,8 +17,8 @@ pub(crate) struct BinLimits {
 }
 
 impl BinLimits {
-    /// 200 MB of spans, 2 MB of a chunk's entries, 128 MB of a band's: no frame of a program comes
-    /// near.
+    /// 200 MB of spans, 2 MB of a chunk's entries, 128 MB of a band's. Few frames have chunks of so
+    /// many entries, which lie in sixteen tiles for each primitive.
     pub(crate) const DEFAULT: Self = Self {
         spans: 1 << 24,
         of_chunk: 1 << 18,

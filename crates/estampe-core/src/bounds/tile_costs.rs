@@ -2,8 +2,9 @@
 //!
 //! Threads take tiles one by one, and wait in the end for the one that draws the last tile. In the
 //! order of storage that may be the dearest: sixty-four threads waited for a quarter of the time of
-//! `blend`, and for a fifth of that of `small_tris`. With the dearest first (longest processing
-//! time first: Graham 1969) the last tiles are the cheapest.
+//! `blend`, and for a fifth of that of `small_tris`. With the dearest first the last tiles are
+//! the cheapest: longest processing time first (Graham, *Bounds on Multiprocessing Timing
+//! Anomalies*, 1969).
 //!
 //! The estimate is the number of entries of the tile's bins. It knows nothing of shaders; where it
 //! says that all tiles cost nearly the same, they stay in the order of storage. Tiles of one class

@@ -256,11 +256,8 @@ impl Context {
             target,
         };
         let mut is_cancelled = false;
-        // As many primitives at a time as cannot take more than the memory of a batch.
-        let most_spans = drawing.target.grid().most_spans();
-        let primitives = self.bin_limits.spans / most_spans;
         loop {
-            let start = Instant::now();
+            let (start, drawn_before) = (Instant::now(), statistics.raster);
             batch.clear();
             let tiles = drawing.target.grid().tiles();
             let mut chunks = memory.begin_chunks(tiles, executor.threads());
@@ -273,26 +270,8 @@ impl Context {
                 }
                 self.shade_vertices(executor, (&batch, group), memory);
                 statistics.groups_of_geometry += 1;
-                let samples = drawing.target.samples() as usize;
-                let all = memory.chunk_plan.len();
-                let mut planned = 0..0;
-                while planned.end < all {
-                    if chunks.bins.spans >= self.bin_limits.spans {
-                        statistics += self.draw_batch(
-                            executor,
-                            &mut drawing,
-                            (&batch, chunks, false),
-                            memory,
-                        )?;
-                        chunks = memory.begin_chunks(tiles, executor.threads());
-                    }
-                    planned = planned.end..memory.chunk_plan.end_of_some(planned.end, primitives);
-                    let places = (planned.clone(), chunks.count);
-                    let built = self.build_chunks(&batch, samples, places, memory);
-                    chunks.count += planned.len();
-                    chunks.bins += built.bins;
-                    statistics += built.statistics;
-                }
+                statistics +=
+                    self.build_group(executor, &mut drawing, (&batch, &mut chunks), memory)?;
             }
             if batch.sub_draws.is_empty() {
                 if drawing.clear.is_done() {
@@ -303,7 +282,8 @@ impl Context {
             if is_cancelled {
                 break;
             }
-            statistics.geometry += start.elapsed();
+            let drawn = statistics.raster.saturating_sub(drawn_before);
+            statistics.geometry += start.elapsed().saturating_sub(drawn);
             let is_last = cursor.is_at_end();
             statistics +=
                 self.draw_batch(executor, &mut drawing, (&batch, chunks, is_last), memory)?;
@@ -318,6 +298,39 @@ impl Context {
         memory.lists.parts = parts.map(DrawBatch::recycled).collect();
         if is_cancelled {
             return Err(RenderPassError::Cancelled);
+        }
+        Ok(statistics)
+    }
+
+    /// Makes the chunks that are planned, and draws them whenever the bins are full.
+    fn build_group(
+        &self,
+        executor: &Executor,
+        drawing: &mut Drawing<'_>,
+        (batch, chunks): (&DrawBatch<'_>, &mut BatchChunks),
+        memory: &mut Memory,
+    ) -> Result<Statistics, RenderPassError> {
+        let mut statistics = Statistics::default();
+        let (grid, samples) = (drawing.target.grid(), drawing.target.samples() as usize);
+        // As many primitives at a time as cannot take more than the memory of a batch.
+        let primitives = self.bin_limits.spans / grid.most_spans();
+        let all = memory.chunk_plan.len();
+        let mut planned = 0..0;
+        while planned.end < all {
+            if chunks.bins.spans >= self.bin_limits.spans {
+                if drawing.pass.control.is_cancelled() {
+                    return Err(RenderPassError::Cancelled);
+                }
+                statistics +=
+                    self.draw_batch(executor, drawing, (batch, *chunks, false), memory)?;
+                *chunks = memory.begin_chunks(grid.tiles(), executor.threads());
+            }
+            planned = planned.end..memory.chunk_plan.end_of_some(planned.end, primitives);
+            let places = (planned.clone(), chunks.count);
+            let built = self.build_chunks(batch, samples, places, memory);
+            chunks.count += planned.len();
+            chunks.bins += built.bins;
+            statistics += built.statistics;
         }
         Ok(statistics)
     }

@@ -10,7 +10,7 @@ use crate::plan::pass_check::RenderPassError;
 use crate::plan::tile_plan::TargetFacts;
 use crate::raster::MAX_SAMPLES;
 use crate::recycle::recycled;
-use crate::schedule::{Executor, Jobs, lock};
+use crate::schedule::{Executor, lock};
 use crate::statistics::Statistics;
 use crate::tile_pass::{
     self, Clear, MAX_TARGETS, TileJobs, TilePass, TileQueue, TileScratch, TileShares, TileStores,
@@ -37,7 +37,7 @@ impl Context {
         &self,
         executor: &Executor,
         (attachments, occlusion_queries): (TileAttachments<'_>, Option<&OcclusionQueries>),
-        (batch, chunks): (&DrawBatch<'_>, BatchChunks),
+        (batch, made): (&DrawBatch<'_>, BatchChunks),
         memory: &mut Memory,
     ) -> Result<Statistics, RenderPassError> {
         let TileAttachments {
@@ -98,30 +98,26 @@ impl Context {
             resolved,
             rows: &places,
         };
-        let chunks_made = &mut memory.chunks[..chunks.count];
+        let chunks = &mut memory.chunks[..made.count];
         let mut statistics = Statistics::default();
-        let tiles_of_band = self.bin_limits.tiles_of_band(chunks.bins.waiting);
-        while tiles_of_band < usize::MAX && jobs.left() > 0 {
-            let band = jobs.take_first(tiles_of_band);
-            sort_band(executor, chunks_made, &band);
-            let chunks = &*chunks_made;
+        let tiles_of_band = self.bin_limits.tiles_of_band(made.bins.waiting);
+        if tiles_of_band < usize::MAX {
+            while jobs.left() > 0 {
+                let band = jobs.take_first(tiles_of_band);
+                sort_band(executor, chunks, &band);
+                let pass = TilePass { chunks, ..pass };
+                statistics += workers.draw(&pass, &stores, TileQueue::Stored(band));
+                statistics.bands_of_tiles += 1;
+            }
+        } else if let Some(order) = memory.tile_costs.dearest_first() {
             let pass = TilePass { chunks, ..pass };
-            statistics += workers.draw(&pass, &stores, TileQueue::Stored(band));
-            statistics.bands_of_tiles += 1;
-        }
-        let chunks = &*chunks_made;
-        let pass = TilePass { chunks, ..pass };
-        if let Some(order) = memory
-            .tile_costs
-            .dearest_first()
-            .filter(|_| jobs.left() > 0)
-        {
             let mut shares = TileShares::new(jobs, std::mem::take(&mut memory.lists.tile_shares));
             let queue = TileQueue::Ordered(order, &mut shares);
             statistics += workers.draw(&pass, &stores, queue);
             statistics.tiles_by_cost += order.len() as u64;
             memory.lists.tile_shares = shares.recycled();
         } else {
+            let pass = TilePass { chunks, ..pass };
             statistics += workers.draw(&pass, &stores, TileQueue::Stored(jobs));
         }
         if grid != size.grid() {
@@ -217,7 +213,7 @@ impl<const N: usize> TileWorkers<N> {
         executor.for_each_worker(tiles, &self.scratch, |next, scratch| {
             let scratch = scratch.get_or_insert_default();
             while let Some(tiles) = next() {
-                tile_pass::draw(pass, tiles.into_jobs(), scratch);
+                tile_pass::draw(pass, tiles, scratch);
             }
             *lock(&statistics) += scratch.end_pass();
         });

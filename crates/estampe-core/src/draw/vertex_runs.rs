@@ -105,6 +105,8 @@ impl<'a, S: AsRef<VertexSpan>> VertexRuns<'a, S> {
 }
 
 impl<S: AsRef<VertexSpan> + Sync> Jobs for VertexJobs<'_, S> {
+    type Taken = Self;
+
     fn job_type() -> &'static str {
         std::any::type_name::<VertexJobs<'_, ()>>()
     }

@@ -20,6 +20,9 @@ pub use rayon::{ThreadPool, ThreadPoolBuilder};
 
 /// Independent jobs, taken off the front some at a time.
 pub(crate) trait Jobs: Send {
+    /// The jobs that are taken off.
+    type Taken;
+
     /// The Rust type of a job, for people to read.
     fn job_type() -> &'static str;
 
@@ -27,10 +30,12 @@ pub(crate) trait Jobs: Send {
     fn left(&self) -> usize;
 
     /// Takes the first jobs off, or all that are left.
-    fn take_first(&mut self, count: usize) -> Self;
+    fn take_first(&mut self, count: usize) -> Self::Taken;
 }
 
 impl<T: Send> Jobs for &mut [T] {
+    type Taken = Self;
+
     fn job_type() -> &'static str {
         std::any::type_name::<T>()
     }
@@ -158,7 +163,7 @@ impl Executor {
         &self,
         jobs: J,
         scratch: &[Mutex<C>],
-        work: impl Fn(&mut dyn FnMut() -> Option<J>, &mut C) + Sync,
+        work: impl Fn(&mut dyn FnMut() -> Option<J::Taken>, &mut C) + Sync,
     ) {
         self.share(jobs, |worker, next| work(next, &mut lock(&scratch[worker])));
     }
@@ -167,7 +172,7 @@ impl Executor {
     fn share<J: Jobs>(
         &self,
         mut jobs: J,
-        work: impl Fn(usize, &mut dyn FnMut() -> Option<J>) + Sync,
+        work: impl Fn(usize, &mut dyn FnMut() -> Option<J::Taken>) + Sync,
     ) {
         let workers = self.threads().min(jobs.left());
         let Some(pool) = self.helpers.as_ref().filter(|_| workers > 1) else {
@@ -205,7 +210,7 @@ impl Executor {
 }
 
 /// Takes the first jobs off, or all that are left; `None` if there are none.
-fn take_some<J: Jobs>(jobs: &mut J, count: usize) -> Option<J> {
+fn take_some<J: Jobs>(jobs: &mut J, count: usize) -> Option<J::Taken> {
     (jobs.left() > 0).then(|| jobs.take_first(count))
 }
 

@@ -7,7 +7,6 @@
 use super::{MAX_TARGETS, TileJob, TileStores};
 use crate::attachment::{RenderTarget, StoredRows};
 use crate::layout::texel_words;
-use crate::schedule::Jobs;
 use estampe_simd::LANES;
 use std::ops::Range;
 
@@ -167,18 +166,14 @@ impl<'a> TileJobs<'a> {
     pub(super) fn first_depths(&self) -> &[[f32; LANES]] {
         self.depth.first()
     }
-}
 
-impl Jobs for TileJobs<'_> {
-    fn job_type() -> &'static str {
-        std::any::type_name::<TileJob<'_>>()
-    }
-
-    fn left(&self) -> usize {
+    /// The number of tiles.
+    pub(crate) fn left(&self) -> usize {
         self.tiles.len()
     }
 
-    fn take_first(&mut self, count: usize) -> Self {
+    /// Takes the first tiles off, or all that are left.
+    pub(crate) fn take_first(&mut self, count: usize) -> Self {
         let tiles = count.min(self.tiles.len());
         let start = self.tiles.start;
         self.tiles.start += u32::try_from(tiles).unwrap_or(u32::MAX);

@@ -11,7 +11,7 @@ use estampe_simd::LANES;
 #[derive(Debug)]
 #[expect(
     clippy::large_enum_variant,
-    reason = "workers take tiles that are stored, which a box would be allocated for"
+    reason = "there is one for a pass, and a box would be allocated each time"
 )]
 pub(crate) enum TileQueue<'m, 'a> {
     /// In the order of storage.
@@ -20,20 +20,9 @@ pub(crate) enum TileQueue<'m, 'a> {
     Ordered(&'m [u32], &'m mut TileShares<'a>),
 }
 
-impl<'a> TileQueue<'_, 'a> {
-    /// The tiles that a worker took.
-    pub(crate) fn into_jobs(self) -> TileJobs<'a> {
-        match self {
-            Self::Stored(jobs) => jobs,
-            Self::Ordered(order, shares) => {
-                let tile = order.first().copied();
-                tile.map(|tile| shares.take(tile)).unwrap_or_default()
-            }
-        }
-    }
-}
+impl<'a> Jobs for TileQueue<'_, 'a> {
+    type Taken = TileJobs<'a>;
 
-impl Jobs for TileQueue<'_, '_> {
     fn job_type() -> &'static str {
         std::any::type_name::<TileJob<'_>>()
     }
@@ -46,8 +35,8 @@ impl Jobs for TileQueue<'_, '_> {
     }
 
     /// In an order of their own tiles are taken one by one, whatever the count.
-    fn take_first(&mut self, count: usize) -> Self {
-        Self::Stored(match self {
+    fn take_first(&mut self, count: usize) -> TileJobs<'a> {
+        match self {
             Self::Stored(jobs) => jobs.take_first(count),
             Self::Ordered(order, shares) => match order.split_first() {
                 Some((tile, others)) => {
@@ -56,7 +45,7 @@ impl Jobs for TileQueue<'_, '_> {
                 }
                 None => TileJobs::default(),
             },
-        })
+        }
     }
 }
 
@@ -175,7 +164,7 @@ mod tests {
             let mut queue = TileQueue::Ordered(&order, &mut shares);
             assert_eq!(queue.left(), 6);
             for expected in order {
-                let mut jobs = queue.take_first(4).into_jobs();
+                let mut jobs = queue.take_first(4);
                 let job = jobs.take_tile().unwrap();
                 assert_eq!(job.tile, expected);
                 assert_eq!(job.colors[0].len(), 64 * 64 * 2 / LANES);
