@@ -69,6 +69,10 @@ pub struct Statistics {
     /// began. They depend on the SIMD level.
     #[doc(hidden)]
     pub fragments_listed_in_order: [u64; 2],
+    /// Fragments that were not shaded, as their texture has no alpha nearby with which they would
+    /// not be discarded, or cover a sample. They depend on the SIMD level.
+    #[doc(hidden)]
+    pub fragments_failing_alpha: u64,
     /// Packets of which shading left few fragments, and the packets that these were moved to before
     /// they were tested and written. They depend on the SIMD level.
     #[doc(hidden)]
@@ -213,6 +217,7 @@ impl std::ops::AddAssign for Statistics {
             *count += other;
         }
         self.small_triangle_pixels += other.small_triangle_pixels;
+        self.fragments_failing_alpha += other.fragments_failing_alpha;
         self.rectangles_in_order += other.rectangles_in_order;
         self.planes_in_lanes += other.planes_in_lanes;
         self.boxes_in_order += other.boxes_in_order;

@@ -94,6 +94,7 @@ fn texture(format: TextureFormat, levels: Vec<MipLevel>, texels: Arc<Lines<u32>>
         format,
         levels,
         is_opaque: is_opaque(&texels),
+        alpha_maps: Arc::default(),
         texels,
         shape: TextureShape::default(),
     }

@@ -87,6 +87,7 @@ impl TexelDescriptor {
             levels: Vec::new(),
             texels: Arc::default(),
             is_opaque: false,
+            alpha_maps: Arc::default(),
             shape: self.shape(),
         };
         let count = self.mip_level_count as usize;
@@ -151,6 +152,7 @@ impl TexelDescriptor {
             levels: levels.collect(),
             texels: Arc::default(),
             is_opaque: false,
+            alpha_maps: Arc::default(),
             shape: self.shape(),
         }
     }
@@ -240,6 +242,7 @@ impl TexelDescriptor {
             levels: Vec::new(),
             texels: Arc::default(),
             is_opaque: false,
+            alpha_maps: Arc::default(),
             shape: self.shape(),
         };
         texture.stored_format().block_bytes().div_ceil(4)

@@ -65,6 +65,7 @@
 //! The second and fourth byte stay in place, as 256·c, and the factor at the end, 1/255 divided by
 //! 256, compensates for it. All of this is exact, so the bits are those of `docs/NUMERICS.md`.
 
+mod alpha_map;
 mod bindings;
 mod blocks;
 mod bound_texture;

@@ -18,11 +18,11 @@ use estampe_types::Interpolation;
 pub(crate) struct CrossPlanes {
     /// Values at the three vertices; their first is the planes' origin once [`CrossPlanes::set`] is
     /// done.
-    corners: [Vec<Packet<f32>>; 3],
-    dx: Vec<Packet<f32>>,
-    dy: Vec<Packet<f32>>,
+    pub(super) corners: [Vec<Packet<f32>>; 3],
+    pub(super) dx: Vec<Packet<f32>>,
+    pub(super) dy: Vec<Packet<f32>>,
     /// 1/w: origin, dx, dy; where a triangle's three are equal, 1.
-    iw: [Packet<f32>; 3],
+    pub(super) iw: [Packet<f32>; 3],
     /// True if those of all triangles are equal.
     equal_w: bool,
     /// The triangles whose three are equal.
@@ -261,7 +261,7 @@ impl CrossPlanes {
 
 /// The planes of the lanes' triangles at the lanes' pixels.
 #[inline(always)]
-fn evaluate<S: Lanes>(
+pub(super) fn evaluate<S: Lanes>(
     s: S,
     [origin, dx, dy]: [&Packet<f32>; 3],
     order: impl LaneOrder<S>,

@@ -8,6 +8,8 @@
 //! entered for sixteen at once; the order of the queue is the order of the primitives, which
 //! blending keeps.
 
+pub(crate) mod alpha_test;
+
 pub(crate) mod interpolate;
 
 pub(crate) mod quad;

@@ -48,6 +48,8 @@ pub(crate) struct StageKey {
     pub(crate) stores_in_order: bool,
     /// Fragments are shaded once for each sample.
     pub(crate) per_sample: bool,
+    /// Fragments that are drawn in order may be tested for an alpha that leaves nothing of them.
+    pub(crate) may_test_alpha: bool,
     /// The alpha of target 0 selects samples.
     pub(crate) alpha_to_coverage: bool,
     /// Shading depends on the samples that were covered before any test.
@@ -149,6 +151,11 @@ impl StageKey {
             shares_packets,
             stores_in_order,
             per_sample,
+            may_test_alpha: (interface.discards || alpha_to_coverage)
+                && shares_packets
+                && !interface.stores
+                && fills_triangles
+                && samples <= 4,
             alpha_to_coverage,
             keeps_coverage,
             sample_mask,

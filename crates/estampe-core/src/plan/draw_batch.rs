@@ -237,7 +237,11 @@ impl<'a> DrawBatch<'a> {
     pub(crate) fn tile_states<'b>(&'b self, target: &TargetFacts, states: &mut Vec<TileState<'b>>) {
         states.extend(self.tile_states.iter().map(|&first| {
             let sub_draw = &self.sub_draws[first];
-            TileState::new(sub_draw.draw, self.plan(sub_draw), target)
+            TileState::new(
+                (sub_draw.draw, sub_draw.bindings()),
+                self.plan(sub_draw),
+                target,
+            )
         }));
     }
 

@@ -126,7 +126,10 @@ impl<'a> SubDraw<'a> {
     /// Returns true if the tiles' state of both is the same.
     pub(super) fn has_tile_state_of(&self, other: &Self) -> bool {
         let constants = [self, other].map(|of| of.draw.blend_constant.map(f32::to_bits));
-        constants[0] == constants[1] && self.rasterizes_like(other)
+        constants[0] == constants[1]
+            && self.rasterizes_like(other)
+            && (!self.draw.pipeline.key().may_test_alpha
+                || std::ptr::eq(self.bindings(), other.bindings()))
     }
 
     /// Vertices of all instances.

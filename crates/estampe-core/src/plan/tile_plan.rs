@@ -14,7 +14,7 @@ use crate::per_sample::stencil::StencilTest;
 use crate::pipeline::RenderPipeline;
 use crate::tile_path::{PathFacts, TilePath};
 use estampe_simd::Level;
-use estampe_types::shader::DepthOutput;
+use estampe_types::shader::{AlphaTest, AlphaTestRequest, DepthOutput, Interface, Sampling};
 use estampe_types::state::CompareFunction;
 use estampe_types::{Bindings, Interpolation};
 use std::ops::Deref;
@@ -57,6 +57,8 @@ pub(crate) struct TileState<'a> {
     pub(crate) query: Option<u32>,
     /// True if every varying is smooth.
     pub(crate) all_smooth: bool,
+    /// The test of a texture's alpha that leaves nothing of most fragments.
+    pub(crate) alpha_test: Option<AlphaTest>,
 }
 
 /// The inputs of a state that come from the target and the pass.
@@ -101,7 +103,7 @@ impl TilePlan<'_> {
 impl<'a> TileState<'a> {
     /// The state of a draw.
     pub(crate) fn new(
-        draw: &'a Draw<'a>,
+        (draw, bindings): (&'a Draw<'a>, &Bindings),
         geometry: &'a GeometryPlan,
         target: &TargetFacts,
     ) -> Self {
@@ -141,6 +143,7 @@ impl<'a> TileState<'a> {
             line_style: &geometry.line_style,
             query,
             all_smooth: modes.iter().all(|mode| *mode == Interpolation::Smooth),
+            alpha_test: alpha_test((draw, bindings), target),
         }
     }
 
@@ -149,6 +152,37 @@ impl<'a> TileState<'a> {
     pub(crate) fn tests_depth_alone(&self) -> bool {
         self.tests.is_depth_alone() && self.query.is_none()
     }
+}
+
+/// The alpha test of a draw, if its coordinates and layer are interpolated in the common way.
+fn alpha_test((draw, bindings): (&Draw<'_>, &Bindings), target: &TargetFacts) -> Option<AlphaTest> {
+    let key = draw.pipeline.key();
+    if !key.may_test_alpha || target.level.is_scalar() {
+        return None;
+    }
+    let elements = draw.elements.len() * draw.instances.len();
+    let request = AlphaTestRequest {
+        to_coverage: key.alpha_to_coverage,
+        primitives: elements / 3,
+    };
+    let test = draw.pipeline.program().alpha_test(bindings, request)?;
+    let Interface {
+        varyings, sampling, ..
+    } = draw.pipeline.interface();
+    let is = |scalar: usize, mode: Interpolation| {
+        let at_center = sampling
+            .get(scalar)
+            .is_none_or(|at| *at == Sampling::Center);
+        varyings.get(scalar) == Some(&mode) && (at_center || mode == Interpolation::Flat)
+    };
+    let are_smooth = test
+        .at
+        .iter()
+        .all(|scalar| is(*scalar, Interpolation::Smooth));
+    let is_flat = test
+        .layer
+        .is_none_or(|scalar| is(scalar, Interpolation::Flat));
+    (are_smooth && is_flat).then_some(test)
 }
 
 fn timing(pipeline: &RenderPipeline, tests: &SampleTests) -> TestTiming {

@@ -64,6 +64,27 @@ impl Fragments {
         debug_assert!(self.len <= Self::MOST, "{} fragments", self.len);
     }
 
+    /// Keeps those in the masks that `keeps` gives for the pixels of each sixteen.
+    #[inline(always)]
+    pub(super) fn retain<S: Lanes>(&mut self, s: S, mut keeps: impl FnMut(u32x16<S>) -> u16) {
+        let (end, mut from) = (self.len, 0);
+        self.len = 0;
+        // Sixteen are written no further than those end that were read.
+        while from < end {
+            let [pixels, places, samples] = self.sixteen(from, 0);
+            let pixels = u32x16::load_array_ref(s, pixels);
+            let places = u32x16::load_array_ref(s, places);
+            let samples = u32x16::load_array_ref(s, samples);
+            let listed = u16::MAX >> (LANES - (end - from).min(LANES));
+            let kept = keeps(pixels) & listed;
+            self.add(s, kept, [pixels, places, samples]);
+            from += LANES;
+        }
+        if self.len != 0 {
+            self.end();
+        }
+    }
+
     /// Adds the pixels of a packet of the tile of which some samples, which are in masks, show the
     /// triangle of a lane.
     #[inline(always)]

@@ -20,6 +20,7 @@ pub fn texture(plain: &PlainTexture, format: TextureFormat, decode: BlockDecoder
         levels: Vec::new(),
         texels: Arc::default(),
         is_opaque: false,
+        alpha_maps: Arc::default(),
         shape: TextureShape {
             dimension: plain.dimension,
             depth_or_layers: plain.size[2],

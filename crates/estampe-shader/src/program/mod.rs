@@ -4,6 +4,7 @@
 //! [`ShaderProgram`](estampe_types::ShaderProgram) is to shaders in Rust: a vertex and a fragment
 //! stage behind the one interface by which all shaders run. [`TextCompute`] is a compute shader.
 
+mod alpha_test;
 mod batch;
 mod buffers;
 mod comparisons;
@@ -34,7 +35,7 @@ use batch::{Widths, with_fragments, with_vertices};
 use estampe_ir::interface::TextureSlot;
 use estampe_ir::tree::{Tree, passes};
 use estampe_simd::Level;
-use estampe_types::shader::StoppedBatches;
+use estampe_types::shader::{AlphaTest, AlphaTestRequest, StoppedBatches};
 use estampe_types::{
     BindGroupLayout, BindGroupLayoutEntry, Bindings, FragmentBatch, Interface, Program, SampleType,
     VertexBatch,
@@ -179,6 +180,27 @@ impl Program for TextProgram {
         stages
             .into_iter()
             .any(|stage| stage.reads_texels(TextureSlot { group, binding }))
+    }
+
+    fn alpha_test(&self, bindings: &Bindings, request: AlphaTestRequest) -> Option<AlphaTest> {
+        let stage = self.fragment.as_ref()?;
+        let (buffers, textures) = (stage.buffers(bindings), stage.textures(bindings));
+        let sources = Sources {
+            textures: &textures,
+            buffers: buffers.all(),
+            immediates: &bindings.immediates,
+        };
+        let (read, failing) = stage.alpha_tests()?.failing(sources, request)?;
+        let (place, [texture, sampler]) = stage.reads().place_of(read)?;
+        let (at, layer, of_quads) = place.of_alpha(self.widths, &self.interface.gradients)?;
+        let sampled = textures.sampled(texture, sampler)?;
+        Some(AlphaTest {
+            failing,
+            map: sampled.alpha_map(failing, request.primitives)?,
+            at,
+            layer,
+            of_quads,
+        })
     }
 
     fn vertex_packets(&self) -> usize {

@@ -20,7 +20,7 @@ use super::comparisons::{self, ShadowFilter};
 use super::groups::Group;
 use super::pixel_loads;
 use super::read_inputs::with_inputs;
-use super::read_place::{MOST, Read, found};
+use super::read_place::{MOST, Place, Read, found};
 use super::taps::{Filter, Shift};
 use super::uniforms::{Finder, Sources, Uniforms};
 use estampe_ir::interface::{Input, Output};
@@ -224,6 +224,14 @@ impl Reads {
         let taps = &mut self.filters[filter].shifts;
         taps.push(shifts);
         (filter, taps.len() - 1)
+    }
+
+    /// The place of a read whose alpha may [decide](super::alpha_test), and the positions in the
+    /// interface of its texture and sampler.
+    pub(super) fn place_of(&self, read: u32) -> Option<(&Place, [u32; 2])> {
+        let (span, first) = *self.of_read.get(read as usize)?;
+        let group = self.groups.get(span)?;
+        Some((&group.place, *group.textures.get(first / CHANNELS)?))
     }
 
     /// The number of reads.

@@ -64,6 +64,42 @@ impl Place {
         is_plain.then_some((places, lod))
     }
 
+    /// The scalars that are two coordinates, and the layer, and true if the level of detail is that
+    /// of the quad; `None` unless the level comes from there or from the derivatives of these
+    /// coordinates.
+    pub(super) fn of_alpha(
+        &self,
+        widths: Widths,
+        gradients: &[usize],
+    ) -> Option<([usize; 2], Option<usize>, bool)> {
+        let &[u, v] = &self.coordinates[..] else {
+            return None;
+        };
+        let of_quads = match &self.level {
+            Level::Implicit => true,
+            Level::Gradients(axes) => {
+                let firsts = [widths.varyings, widths.varyings + gradients.len()];
+                let are_own = axes.iter().zip(firsts).all(|(axis, first)| {
+                    let own = [u, v].map(|scalar| gradients.binary_search(&scalar).ok());
+                    own.iter()
+                        .zip(axis)
+                        .all(|(own, scalar)| own.map(|own| first + own) == Some(*scalar))
+                        && axis.len() == own.len()
+                });
+                if !are_own {
+                    return None;
+                }
+                false
+            }
+            Level::Zero => return None,
+        };
+        (u < widths.varyings && v < widths.varyings && self.offset == [0; 3]).then_some((
+            [u, v],
+            self.layer,
+            of_quads,
+        ))
+    }
+
     /// Sets what a packet with these scalars asks for, in a request of zeros.
     #[inline]
     pub(super) fn ask<'a>(&self, scalars: &'a [Packet<f32>], asked: &mut PacketRequest<'a>) {

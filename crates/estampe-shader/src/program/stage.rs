@@ -1,5 +1,6 @@
 //! A stage of a program: its kernel, as machine code or as bytecode.
 
+use super::alpha_test::AlphaTests;
 use super::batch::Widths;
 use super::buffers::BoundBuffers;
 use super::ends::{Ends, Source, Target};
@@ -28,6 +29,8 @@ pub(super) struct Stage {
     kernel: Kernel,
     /// The texture reads that are made before the kernel runs.
     reads: Reads,
+    /// What decides whether a fragment has an effect.
+    alpha_tests: Option<AlphaTests>,
     /// The kernel's colours are the texels of its only read: nothing is left to run.
     passes_texels: bool,
     inputs: Ends<Source>,
@@ -47,6 +50,7 @@ impl Stage {
         Self {
             kernel: Kernel::from_tree(tree),
             reads: Reads::default(),
+            alpha_tests: None,
             passes_texels: false,
             inputs: Ends::default(),
             outputs: Ends::default(),
@@ -84,6 +88,7 @@ impl Stage {
     ) -> Self {
         let mut tree = tree.clone();
         let reads = Reads::take(&mut tree, widths, gradients);
+        let alpha_tests = AlphaTests::of(&tree, &reads);
         let stage = Self::new(&tree, budget);
         let Interface {
             inputs, outputs, ..
@@ -92,6 +97,7 @@ impl Stage {
             inputs: Ends::<Source>::of_fragments(inputs, &reads, (widths, gradients)),
             outputs: Ends::<Target>::of_fragments(outputs, widths),
             passes_texels: widths.colors == 1 && reads.are_colors(&tree),
+            alpha_tests: Some(alpha_tests),
             reads,
             ..stage
         }
@@ -110,6 +116,11 @@ impl Stage {
     /// The texture reads that are made before the kernel runs.
     pub(super) fn reads(&self) -> &Reads {
         &self.reads
+    }
+
+    /// What decides whether a fragment has an effect.
+    pub(super) fn alpha_tests(&self) -> Option<&AlphaTests> {
+        self.alpha_tests.as_ref()
     }
 
     /// True if the colours of fragments are the texels of the only read, so that no run is needed.

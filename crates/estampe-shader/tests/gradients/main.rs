@@ -1,5 +1,6 @@
 //! Textures that are sampled at varyings: where their level of detail comes from.
 
+mod alpha;
 mod comparisons;
 mod filters;
 mod linking;

@@ -1,5 +1,6 @@
 //! Shaders as text on the objects of the device: drawing and compute.
 
+mod alpha_tests;
 mod clamped_sampling;
 mod compute;
 mod contraction;

@@ -40,7 +40,7 @@ mod gather;
 mod packet;
 mod packet_fetch;
 mod packet_request;
-mod packet_texel;
+pub(crate) mod packet_texel;
 mod plane;
 mod request_functions;
 mod sample;

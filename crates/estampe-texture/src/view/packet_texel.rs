@@ -59,6 +59,11 @@ impl PacketFormat {
         matches!(self.kind(), RGBA8 | RGBA8_SRGB | R8)
     }
 
+    /// Returns true if texels are words of four unorm bytes, the last of which is alpha.
+    pub(crate) fn is_of_four_bytes(self) -> bool {
+        matches!(self.kind(), RGBA8 | RGBA8_SRGB)
+    }
+
     /// Returns true if texels are one float: [`FLOAT`].
     pub(super) fn is_one_float(self) -> bool {
         let is_float = matches!(

@@ -197,8 +197,13 @@ impl TexelView {
     /// The words of a level of the view's first slice, with one sample and one word a texel.
     #[inline]
     pub(crate) fn slice_words(&self, plane: &Plane) -> Option<&[u32]> {
+        self.layer_words(plane, 0)
+    }
+
+    /// The words of a level of a layer of the view, with one sample and one word a texel.
+    pub(crate) fn layer_words(&self, plane: &Plane, layer: u32) -> Option<&[u32]> {
         let [width, height, _] = plane.sides.map(|side| side as usize);
-        let slice = self.base_layer as usize * width * height;
+        let slice = (self.base_layer + layer) as usize * width * height;
         let begin = plane.offset.checked_add(slice)?;
         self.texture
             .texels

@@ -201,6 +201,7 @@ fn a_texture_put_together_by_hand_cannot_harm() {
             levels,
             texels: std::sync::Arc::new(estampe_types::Lines::from(texels)),
             is_opaque: false,
+            alpha_maps: std::sync::Arc::default(),
             shape: estampe_types::TextureShape::default(),
         });
         for mut sampler in samplers() {

@@ -1,6 +1,7 @@
 //! Textures are created by their rules, and every kind of number samples them as docs/NUMERICS.md
 //! says, to the bit, at every SIMD level.
 
+mod alpha_maps;
 mod bindings;
 mod bits;
 mod blocks;

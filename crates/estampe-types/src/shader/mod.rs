@@ -5,6 +5,7 @@
 //! holds its uniforms and shares its textures. [`ShaderProgram`] erases its type once, when a
 //! pipeline is created, into a [`Program`], the interface that compiled text shaders implement too.
 
+mod alpha_test;
 mod amplification;
 mod compute;
 mod declaration;
@@ -22,6 +23,9 @@ mod structs;
 mod varyings;
 mod vertex;
 
+pub use alpha_test::{
+    ALPHA_CELLS, ALPHA_STEPS, AlphaMap, AlphaMapKey, AlphaMaps, AlphaTest, AlphaTestRequest,
+};
 pub use amplification::{
     ControlBatch, ControlIn, Emit, EmittedVertex, EvaluationBatch, EvaluationIn, GeometryBatch,
     GeometryIn, GeometryInterface, GeometryPrimitive, GeometryProgram, GeometryShader,
@@ -227,6 +231,11 @@ pub trait Program: Send + Sync + std::fmt::Debug {
     /// need not be brought into rows. Shaders in Rust do not say.
     fn reads_texels(&self, _group: u32, _binding: u32) -> bool {
         true
+    }
+    /// What decides alone whether a fragment has any effect, if that is the alpha of a texture.
+    /// Fragments that fail it are not shaded. Shaders in Rust have none.
+    fn alpha_test(&self, _bindings: &Bindings, _request: AlphaTestRequest) -> Option<AlphaTest> {
+        None
     }
     /// The packets of vertices that a call of [`Self::run_vertices`] is best given, 1 to 8. Few, as
     /// fetching and storing wait for memory while programs compute: of a million triangles' half a

@@ -12,6 +12,7 @@ pub use view::{TexelViewDescriptor, TextureAspect, ViewDimension};
 
 use crate::format::TextureFormat;
 use crate::morton::spread;
+use crate::shader::AlphaMaps;
 use crate::{Lines, depth_minmax};
 use estampe_simd::Level;
 use std::sync::{Arc, LazyLock};
@@ -39,12 +40,15 @@ pub struct TexelData {
     /// Dimension, depth or layers, and samples. The default is one 2D image with one sample per
     /// texel.
     pub shape: TextureShape,
+    /// Where alpha may pass tests: what was found of these texels. Other texels need new maps.
+    pub alpha_maps: Arc<AlphaMaps>,
 }
 
 impl TexelData {
     /// Takes the texels out and leaves none, which allocates no memory.
     pub fn take_texels(&mut self) -> Arc<Lines<u32>> {
         static NONE: LazyLock<Arc<Lines<u32>>> = LazyLock::new(Arc::default);
+        self.alpha_maps = Arc::default();
         std::mem::replace(&mut self.texels, Arc::clone(&NONE))
     }
 }

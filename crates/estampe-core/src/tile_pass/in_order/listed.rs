@@ -5,6 +5,7 @@ use super::tests::{run_apart, samples_in};
 use super::{InOrder, InOrderScratch};
 use crate::bounds::lane_order::AnyOrder;
 use crate::depth_format::clamp_depth;
+use crate::fragment::alpha_test::AlphaPlaces;
 use crate::fragment::cross_fragments::{Row, bits_of_row};
 use crate::fragment::fill::lanes_between;
 use crate::fragment::interpolate::{VaryingSource, WindowPixels};
@@ -17,6 +18,7 @@ use crate::raster::pixel_list::Pixels;
 use estampe_simd::{
     Bytes, LANES, Lanes, Packet, Select, SimdBase, bits_of, dispatch, f32x16, u32x16,
 };
+use estampe_types::shader::AlphaTest;
 
 /// When the tests that come before shading are made.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -58,6 +60,18 @@ pub(super) trait ListedValues {
         distances: [f32x16<S>; 2],
     ) -> f32x16<S>;
 
+    /// The places of pixels' centres in the texture of an alpha test, if they are looked up.
+    #[inline(always)]
+    fn alpha_places<S: Lanes, const N: usize>(
+        _of: &SmallScratch<N>,
+        _s: S,
+        _order: AnyOrder<S>,
+        _test: &AlphaTest,
+        _distances: [f32x16<S>; 2],
+    ) -> Option<AlphaPlaces<S>> {
+        None
+    }
+
     /// The varyings at the pixels' centres.
     fn varyings<S: Lanes, const N: usize>(
         of: &SmallScratch<N>,
@@ -96,6 +110,11 @@ impl<const N: usize> InOrder<'_, '_, '_, '_, N> {
             TestTiming::Early | TestTiming::RejectEarly => EarlyTests::OfList,
         };
         self.test_list::<_, V>(s, early == EarlyTests::OfList);
+        if let Some(test) = &plan.alpha_test
+            && early != EarlyTests::OfPackets
+        {
+            self.test_alpha_of_list::<V>(test);
+        }
         let mut from = 0;
         let count = self.scratch.in_order.fragments.len();
         if count != 0 {
@@ -319,6 +338,10 @@ impl<const N: usize> InOrder<'_, '_, '_, '_, N> {
 
 /// The distances of another place in each pixel: exact, because places are multiples of 1/256.
 #[inline(always)]
-fn moved<S: Lanes>([x, y]: [f32x16<S>; 2], from: [f32; 2], to: [f32; 2]) -> [f32x16<S>; 2] {
+pub(super) fn moved<S: Lanes>(
+    [x, y]: [f32x16<S>; 2],
+    from: [f32; 2],
+    to: [f32; 2],
+) -> [f32x16<S>; 2] {
     [x + (to[0] - from[0]), y + (to[1] - from[1])]
 }

@@ -5,7 +5,7 @@
 //! follow in the order of the queue.
 //!
 //! ```text
-//!   coverage ─▶ early tests ─▶ queue ─▶ shader ─▶ late tests ─▶ colours
+//!   coverage ─▶ early tests (`alpha`, too) ─▶ queue ─▶ shader ─▶ late tests ─▶ colours
 //!      ├─ large triangles, blended from their planes (`layers`)
 //!      ├─ two triangles that are a rectangle (`boxes`)
 //!      ├─ triangles of one colour that share sides (`fan`)
@@ -27,6 +27,7 @@ macro_rules! dispatch_samples {
 }
 
 mod ahead;
+mod alpha;
 mod boxes;
 mod dense;
 mod fan;

@@ -20,6 +20,7 @@ use crate::bounds::lane_order::AnyOrder;
 use crate::bounds::lines::LinePacket;
 use crate::bounds::plane::PlaneLanes;
 use crate::bounds::primitives::{PackedTriangle, TrianglePacket};
+use crate::fragment::alpha_test::AlphaPlaces;
 use crate::fragment::cross_fragments::Row;
 use crate::fragment::cross_line::CrossLines;
 use crate::fragment::cross_triangle::CrossPlanes;
@@ -30,6 +31,7 @@ use crate::raster::pixel_list::PixelList;
 use crate::raster::small::{Boxes, SIDE, SmallBoxes};
 use crate::tile_path::TilePath;
 use estampe_simd::{LANES, Lanes, Packet, dispatch, f32x16, u32x16};
+use estampe_types::shader::AlphaTest;
 use estampe_types::state::ConservativeMode;
 
 /// Fewer triangles than this are drawn one by one.
@@ -206,6 +208,17 @@ impl ListedValues for OfTriangles {
         distances: [f32x16<S>; 2],
     ) -> f32x16<S> {
         of.planes.inverse_w(s, row, &of.packet, distances)
+    }
+
+    #[inline(always)]
+    fn alpha_places<S: Lanes, const N: usize>(
+        of: &SmallScratch<N>,
+        s: S,
+        order: AnyOrder<S>,
+        test: &AlphaTest,
+        distances: [f32x16<S>; 2],
+    ) -> Option<AlphaPlaces<S>> {
+        Some(of.planes.alpha_places(s, order, test, distances))
     }
 
     #[inline(always)]

@@ -58,6 +58,12 @@ impl<const N: usize> InOrder<'_, '_, '_, '_, N> {
             set_planes(s, &mut planes, triangle, &self.source, plan.all_smooth);
         }
         interpolant.planes = VaryingPlanes::new(&planes);
+        if let Some(test) = &plan.alpha_test
+            && !self.test_alpha_of_triangle(test, &interpolant)
+        {
+            self.planes = planes;
+            return;
+        }
         if self.gathers {
             if interpolant.is_constant() {
                 self.gather(interpolant.planes.origins(), front);

@@ -88,6 +88,7 @@ fn textures_are_stored_as_their_documentation_says() {
         levels: Vec::new(),
         texels: Arc::default(),
         is_opaque: false,
+        alpha_maps: Arc::default(),
         shape: TextureShape::default(),
     };
     use TextureFormat as F;

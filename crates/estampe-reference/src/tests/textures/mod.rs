@@ -31,6 +31,7 @@ fn texture(
         levels: levels.collect(),
         texels: Arc::new(words.collect::<Vec<u32>>().into()),
         is_opaque: false,
+        alpha_maps: Arc::default(),
         shape: estampe_types::TextureShape::default(),
     };
     ReferenceTexture::new(Arc::new(texture), sampler)

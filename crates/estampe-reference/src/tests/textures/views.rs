@@ -50,6 +50,7 @@ fn view(
         },
         texels: std::sync::Arc::new(texels.into()),
         is_opaque: false,
+        alpha_maps: Arc::default(),
         levels: levels.clone(),
     };
     ReferenceView {

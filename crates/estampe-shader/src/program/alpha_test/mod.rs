@@ -1,0 +1,161 @@
+//! Alpha tests: fragments that have no effect while the alpha of one texture is small.
+//!
+//! In · Out: a tree of the fragment stage, out of which reads were taken · its parts that decide
+//! whether a fragment has an effect; with the bindings of a draw, the greatest alpha for which it
+//! has none.
+//!
+//! A fragment has no effect if it is discarded, or if its alpha, which becomes coverage, covers no
+//! sample. Both are decided by evaluating the tree with [ranges](range) in place of numbers: if the
+//! alpha of a texture read is in 0..=a, is the fragment discarded whatever everything else is?
+//! Uniforms are what the draw binds.
+
+mod range;
+mod walk;
+
+use super::nondependent::Reads;
+use super::uniforms::Sources;
+use estampe_ir::Op;
+use estampe_ir::interface::{Input, Output};
+use estampe_ir::tree::{Node, Tree, passes};
+use estampe_types::shader::AlphaTestRequest;
+use range::Range;
+use walk::Walk;
+
+/// The most nodes of a tree that is evaluated for a draw.
+const MOST_NODES: usize = 256;
+
+/// Alphas up to this cover none of four samples or fewer: ⌊4·alpha + ½⌋ is 0. A little less than
+/// ⅛, at which the sum would be rounded up.
+const COVERS_NOTHING: f32 = 0.12;
+
+/// The decisions of a fragment stage.
+#[derive(Debug)]
+pub(super) struct AlphaTests {
+    /// What decides whether a fragment is discarded.
+    discard: Option<Decision>,
+    /// What decides about the alpha of the first colour.
+    coverage: Option<Decision>,
+}
+
+/// A tree with one output, which is decided by the alpha of a read.
+#[derive(Debug)]
+struct Decision {
+    tree: Tree,
+    read: u32,
+}
+
+impl AlphaTests {
+    /// The decisions of a tree that depend on the alpha of one read.
+    pub(super) fn of(tree: &Tree, reads: &Reads) -> Self {
+        let decision = |output: Output| Decision::of(tree, output, reads);
+        Self {
+            discard: decision(Output::Cover),
+            coverage: decision(Output::Color {
+                target: 0,
+                component: 3,
+            }),
+        }
+    }
+
+    /// The read that decides, and the code of the greatest alpha for which fragments have no
+    /// effect, if the read's alpha is at most 1/256 above it.
+    pub(super) fn failing<'a>(
+        &'a self,
+        sources: Sources<'a>,
+        request: AlphaTestRequest,
+    ) -> Option<(u32, u8)> {
+        let coverage = self.coverage.as_ref().filter(|_| request.to_coverage);
+        let decisions = self.discard.iter().chain(coverage);
+        let failing = decisions.filter_map(|decision| {
+            let code = decision.failing(sources)?;
+            Some((decision.read, code))
+        });
+        failing.max_by_key(|(_, code)| *code)
+    }
+}
+
+impl Decision {
+    fn of(tree: &Tree, output: Output, reads: &Reads) -> Option<Self> {
+        let at = tree
+            .interface
+            .outputs
+            .iter()
+            .position(|one| *one == output)?;
+        let mut part = tree.clone();
+        part.interface.outputs = vec![output];
+        part.outputs = vec![tree.outputs[at]];
+        passes::dead_code(&mut part);
+        let mut count = 0;
+        if !is_walkable(&part.body, &mut count) || count > MOST_NODES {
+            return None;
+        }
+        // One read decides: of several, none would be known to be small.
+        let inputs = part.interface.inputs.iter();
+        let used = used_inputs(&part.body);
+        let mut alphas = inputs.zip(0_u32..).filter_map(|(input, at)| match input {
+            Input::TextureRead { read, component: 3 } if used.contains(&at) => Some(*read),
+            _ => None,
+        });
+        let read = alphas.next()?;
+        (alphas.next().is_none() && reads.place_of(read).is_some())
+            .then_some(Self { tree: part, read })
+    }
+
+    fn failing<'a>(&'a self, sources: Sources<'a>) -> Option<u8> {
+        let fails = |code: u8| {
+            let alpha = Range::new(0.0, f32::from(code) / 255.0 + 1.0 / 256.0);
+            let mut walk = Walk::new(&self.tree, sources, (self.read, alpha));
+            let result = walk.output();
+            match self.tree.interface.outputs.first() {
+                Some(Output::Cover) => result.mask() == Some(false),
+                _ => result
+                    .range()
+                    .is_some_and(|alpha| alpha.most <= COVERS_NOTHING),
+            }
+        };
+        if !fails(0) {
+            return None;
+        }
+        // What fails up to an alpha fails up to smaller ones.
+        let (mut failing, mut end) = (0, u8::MAX);
+        while end - failing > 1 {
+            let middle = failing + (end - failing) / 2;
+            if fails(middle) {
+                failing = middle;
+            } else {
+                end = middle;
+            }
+        }
+        Some(failing)
+    }
+}
+
+/// Counts nodes; false if there is a loop.
+fn is_walkable(nodes: &[Node], count: &mut usize) -> bool {
+    *count += nodes.len();
+    nodes.iter().all(|node| match node {
+        Node::Op { .. } | Node::Branch { .. } => true,
+        Node::If { accept, reject, .. } => is_walkable(accept, count) && is_walkable(reject, count),
+        Node::Block { body, .. } => is_walkable(body, count),
+        Node::Loop { .. } => false,
+    })
+}
+
+/// The positions of the inputs that a body reads.
+fn used_inputs(nodes: &[Node]) -> Vec<u32> {
+    let mut used = Vec::new();
+    let mut open = vec![nodes];
+    while let Some(nodes) = open.pop() {
+        for node in nodes {
+            match node {
+                Node::Op {
+                    op: Op::Input(at), ..
+                } => used.push(*at),
+                Node::Op { .. } | Node::Branch { .. } => {}
+                Node::If { accept, reject, .. } => open.extend([&accept[..], &reject[..]]),
+                Node::Block { body, .. } | Node::Loop { body, .. } => open.push(body),
+            }
+        }
+    }
+    used
+}
