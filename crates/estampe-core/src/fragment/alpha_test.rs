@@ -11,7 +11,8 @@ use crate::bounds::lane_order::LaneOrder;
 use estampe_simd::{Bytes, LANES, Lanes, SimdBase, SimdCvtTruncate, f32x16, i32x16, u32x16};
 use estampe_types::shader::{ALPHA_CELLS, ALPHA_STEPS, AlphaMap, AlphaTest};
 
-/// Coordinates from here on are not looked up: they would not say which texel they are in.
+/// Coordinates from here on are not looked up if they repeat: they hardly say which texel they are
+/// in.
 const MOST: f32 = 16_384.0;
 
 /// Where sixteen fragments are in the texture of a test.
@@ -121,10 +122,13 @@ pub(crate) fn may_pass<S: Lanes>(
     let column: u32x16<S> = cell(s, u, map.repeats[0]).bitcast();
     let one = <u32x16<S> as SimdBase<S>>::splat(s, 1);
     let passes = ((words >> column) & one).simd_eq(one);
-    // False where a number is NaN.
-    let is_known = rho2.simd_lt(splat(f32::MAX))
-        & s.max_f32(u, -u).simd_lt(splat(MOST))
-        & s.max_f32(v, -v).simd_lt(splat(MOST));
+    // Numbers that are not finite give NaN, which is not 0.
+    let mut is_known = ((u + v + rho2) * 0.0).simd_eq(splat(0.0));
+    if map.repeats[0] | map.repeats[1] {
+        is_known &= s
+            .max_f32(s.max_f32(u, -u), s.max_f32(v, -v))
+            .simd_lt(splat(MOST));
+    }
     let lanes = s.bits_of_mask(passes | !is_known);
     if quads {
         ((lanes | lanes >> 1 | lanes >> 2 | lanes >> 3) & 0x1111) * 0xF
