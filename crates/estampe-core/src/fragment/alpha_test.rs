@@ -130,11 +130,13 @@ pub(crate) fn may_pass<S: Lanes>(
             .simd_lt(splat(MOST));
     }
     let lanes = s.bits_of_mask(passes | !is_known);
-    if quads {
-        ((lanes | lanes >> 1 | lanes >> 2 | lanes >> 3) & 0x1111) * 0xF
-    } else {
-        lanes
-    }
+    if quads { whole_quads(lanes) } else { lanes }
+}
+
+/// All lanes of the quads of which one is in a mask.
+#[inline(always)]
+pub(crate) fn whole_quads(lanes: u16) -> u16 {
+    ((lanes | lanes >> 1 | lanes >> 2 | lanes >> 3) & 0x1111) * 0xF
 }
 
 /// The squared length of a derivative in texels of the base level.

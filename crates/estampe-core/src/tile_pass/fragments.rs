@@ -64,9 +64,14 @@ impl Fragments {
         debug_assert!(self.len <= Self::MOST, "{} fragments", self.len);
     }
 
-    /// Keeps those in the masks that `keeps` gives for the pixels of each sixteen.
+    /// Keeps those in the masks that `keeps` gives for the pixels, places and samples of each
+    /// sixteen, with the samples that it gives.
     #[inline(always)]
-    pub(super) fn retain<S: Lanes>(&mut self, s: S, mut keeps: impl FnMut(u32x16<S>) -> u16) {
+    pub(super) fn retain<S: Lanes>(
+        &mut self,
+        s: S,
+        mut keeps: impl FnMut([u32x16<S>; 3]) -> (u16, u32x16<S>),
+    ) {
         let (end, mut from) = (self.len, 0);
         self.len = 0;
         // Sixteen are written no further than those end that were read.
@@ -76,8 +81,8 @@ impl Fragments {
             let places = u32x16::load_array_ref(s, places);
             let samples = u32x16::load_array_ref(s, samples);
             let listed = u16::MAX >> (LANES - (end - from).min(LANES));
-            let kept = keeps(pixels) & listed;
-            self.add(s, kept, [pixels, places, samples]);
+            let (kept, samples) = keeps([pixels, places, samples]);
+            self.add(s, kept & listed, [pixels, places, samples]);
             from += LANES;
         }
         if self.len != 0 {

@@ -41,6 +41,14 @@ fn tested(color: vec4f, alpha: f32) -> vec4f {
     let color = textureSample(images, any, in.uv, in.layer);
     return tested(color, color.a + in.nothing);
 }
+@fragment fn known_edge(in: Varyings) -> @location(0) vec4f {
+    let color = textureSample(images, any, in.uv, in.layer);
+    return tested(color, color.a + fwidth(color.a));
+}
+@fragment fn unknown_edge(in: Varyings) -> @location(0) vec4f {
+    let color = textureSample(images, any, in.uv, in.layer);
+    return tested(color, color.a + in.nothing + fwidth(color.a));
+}
 fn covered(color: vec4f, alpha: f32) -> vec4f {
     let slope = max(fwidth(alpha), 0.0001);
     return vec4f(color.rgb, clamp((alpha * test.scale - test.cutoff) / slope + 0.5, 0.0, 1.0));
@@ -57,11 +65,22 @@ fn covered(color: vec4f, alpha: f32) -> vec4f {
 
 const SIZE: [u32; 2] = [150, 110];
 
+/// What decides whether a fragment has an effect.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Kind {
+    /// Alpha.
+    Discard,
+    /// Alpha and its derivatives, for which quads are shaded whole.
+    Edge,
+    /// Alpha and its derivatives, as coverage.
+    Coverage,
+}
+
 /// A picture of textured triangles.
 #[derive(Debug)]
 struct Picture {
     samples: u32,
-    to_coverage: bool,
+    kind: Kind,
     format: TextureFormat,
     /// Width, height and layers of the texture.
     sides: [u32; 3],
@@ -78,8 +97,8 @@ struct Picture {
 impl Picture {
     fn new(random: &mut Random, samples: u32) -> Self {
         let sides = [
-            1 + random.below(70),
-            1 + random.below(70),
+            1 + random.below(48),
+            1 + random.below(48),
             1 + random.below(3),
         ];
         let address = [AddressMode::Repeat, AddressMode::ClampToEdge];
@@ -87,7 +106,11 @@ impl Picture {
         let least = random.pick(&[0.0, 0.0, 0.0, 0.7, 2.0]);
         Self {
             samples,
-            to_coverage: samples > 1 && random.once_in(2),
+            kind: match random.below(if samples > 1 { 3 } else { 2 }) {
+                0 => Kind::Discard,
+                1 => Kind::Edge,
+                _ => Kind::Coverage,
+            },
             format: random.pick(&[TextureFormat::Rgba8Unorm, TextureFormat::Rgba8UnormSrgb]),
             sides,
             texels: blobs(random, sides),
@@ -200,7 +223,7 @@ fn pipeline(
         depth_stencil: Some(DepthStencilState::LESS_WRITE),
         multisample: MultisampleState {
             count: picture.samples,
-            alpha_to_coverage_enabled: picture.to_coverage,
+            alpha_to_coverage_enabled: picture.kind == Kind::Coverage,
             ..MultisampleState::default()
         },
         targets: vec![Some(ColorTargetState::from(TextureFormat::Rgba8Unorm))],
@@ -248,14 +271,15 @@ fn bound(device: &Device, pipeline: &RenderPipeline, picture: &Picture) -> [Bind
     [group.unwrap_or_else(|error| panic!("{error}"))]
 }
 
-/// The bytes of a picture by a fragment shader.
+/// The bytes of a picture by a fragment shader, drawn in turns with its texture and uniforms and
+/// with those of another one.
 fn drawn(
     device: &Device,
     module: &ShaderModule,
-    (picture, name): (&Picture, &'static str),
+    (picture, other, name): (&Picture, &Picture, &'static str),
 ) -> (Vec<u8>, Statistics) {
     let pipeline = pipeline(device, module, (picture, name));
-    let groups = bound(device, &pipeline, picture);
+    let groups = [picture, other].map(|of| bound(device, &pipeline, of));
     let [width, height] = SIZE;
     let image = |format, samples| {
         let descriptor = TextureDescriptor {
@@ -270,6 +294,12 @@ fn drawn(
     let vertices = device.create_buffer_with_contents(bytes_of(picture.vertices.as_flattened()));
     let buffers = [vertices.expect("a small buffer").slice(..)];
     let count = u32::try_from(picture.vertices.len()).expect("few");
+    let parts = (0..count).step_by(90).zip(groups.iter().cycle());
+    let draws = parts.map(|(first, bind_groups)| Draw {
+        vertex_buffers: &buffers,
+        bind_groups,
+        ..Draw::new(&pipeline, first..count.min(first + 90))
+    });
     let clear = ColorAttachment::clear(&color.view(), [0.2, 0.0, 0.0, 0.0]);
     let attachment = match picture.samples {
         1 => clear,
@@ -281,11 +311,7 @@ fn drawn(
     let statistics = device.render(&RenderPass {
         color_attachments: &[Some(attachment)],
         depth_stencil_attachment: Some(DepthStencilAttachment::clear(&depth.view(), 1.0)),
-        draws: &[Draw {
-            vertex_buffers: &buffers,
-            bind_groups: &groups,
-            ..Draw::new(&pipeline, 0..count)
-        }],
+        draws: &draws.collect::<Vec<_>>(),
         ..RenderPass::default()
     });
     let statistics = statistics.unwrap_or_else(|error| panic!("{error}"));
@@ -303,18 +329,20 @@ fn drawn(
 /// Rows: F1, F2, R6, O9
 #[test]
 fn fragments_that_fail_by_alpha_alone_change_nothing() {
-    let mut failing = [[0; 2]; 2];
+    let mut failing = [[0; 2]; 3];
     for (name, device) in devices() {
         let module = module(&device, ShaderSource::Wgsl(WGSL));
-        for number in 0..40 {
+        for number in 0..60 {
             let mut random = Random::new("alpha tests", number);
             let samples = random.pick(&[1, 4]);
-            let picture = Picture::new(&mut random, samples);
-            let names = match picture.to_coverage {
-                false => ["known", "unknown"],
-                true => ["known_coverage", "unknown_coverage"],
+            let [picture, other] = [(); 2].map(|()| Picture::new(&mut random, samples));
+            let names = match picture.kind {
+                Kind::Discard => ["known", "unknown"],
+                Kind::Edge => ["known_edge", "unknown_edge"],
+                Kind::Coverage => ["known_coverage", "unknown_coverage"],
             };
-            let [known, unknown] = names.map(|name| drawn(&device, &module, (&picture, name)));
+            let [known, unknown] =
+                names.map(|name| drawn(&device, &module, (&picture, &other, name)));
             assert!(
                 known.0 == unknown.0,
                 "{name}, case {number}: {} fragments changed {picture:?}",
@@ -324,7 +352,7 @@ fn fragments_that_fail_by_alpha_alone_change_nothing() {
                 unknown.1.fragments_failing_alpha, 0,
                 "{name}, case {number}"
             );
-            let counts = &mut failing[usize::from(picture.to_coverage)];
+            let counts = &mut failing[picture.kind as usize];
             counts[0] += known.1.fragments_failing_alpha;
             counts[1] += unknown.1.fragments_shaded;
         }

@@ -4,22 +4,76 @@ use super::listed::{ListedValues, moved};
 use super::small::Listing;
 use super::{InOrder, InOrderScratch};
 use crate::bounds::lane_order::AnyOrder;
-use crate::fragment::alpha_test::may_pass;
+use crate::fragment::alpha_test::{may_pass, whole_quads};
 use crate::fragment::interpolate::TriangleInterpolant;
+use crate::fragment::place::indices_of;
+use crate::plan::tile_plan::TestTiming;
 use crate::raster::packet_origin;
 use crate::raster::pixel_list::Pixels;
-use estampe_simd::{Lanes, dispatch};
+use estampe_simd::{Bytes, Lanes, Select, SimdBase, bits_of, dispatch, f32x16, u32x16};
 use estampe_types::shader::AlphaTest;
 
 impl<const N: usize> InOrder<'_, '_, '_, '_, N> {
-    /// Drops the listed fragments that certainly have no effect. A function of its own, as most
-    /// draws have no alpha test.
+    /// Drops the listed fragments that certainly have no effect, and then those that fail the depth
+    /// test. A function of its own, as most draws have no alpha test.
     #[inline(never)]
     pub(super) fn test_alpha_of_list<V: ListedValues>(&mut self, test: &AlphaTest) {
         if const { N <= 4 } {
-            dispatch!(@wide self.work.level, s => self.test_alpha_of_lanes::<_, V>(s, test),
-                scalar => unreachable!("the scalar level draws one by one"));
+            let tests = &self.work.plan.tests;
+            let rejects = self.work.plan.timing == TestTiming::RejectEarly && !tests.is_empty();
+            dispatch!(@wide self.work.level, s => {
+                self.test_alpha_of_lanes::<_, V>(s, test);
+                if rejects {
+                    self.reject_lanes::<_, V>(s);
+                }
+            }, scalar => unreachable!("the scalar level draws one by one"));
         }
+    }
+
+    /// Drops the samples of listed fragments that would fail the tests, and fragments of which none
+    /// is left.
+    #[inline(always)]
+    fn reject_lanes<S: Lanes, V: ListedValues>(&mut self, s: S) {
+        let plan = self.work.plan;
+        let (offsets, count) = (self.samples.offsets(), self.samples.count());
+        let depths_at = self.depths_at::<V>();
+        let quads = self.listing == Listing::Quads;
+        let depth = &self.job.depth;
+        let InOrderScratch {
+            small, fragments, ..
+        } = &mut self.scratch.in_order;
+        fragments.retain(
+            s,
+            #[inline(always)]
+            |[pixels, places, listed]| {
+                let pixels = Pixels(pixels);
+                let order = AnyOrder::new(s, pixels.lane());
+                let first = small.small.distances(s, pixels, order);
+                let depths = V::depths(small, s, order, pixels.lane());
+                let indices = indices_of(s, places, [count, 0]);
+                let stored: [u32x16<S>; N] = s.gather_lines(bits_of(depth.as_flattened()), indices);
+                let zero = <u32x16<S> as SimdBase<S>>::splat(s, 0);
+                let (mut samples, mut any) = (zero, 0);
+                for (sample, depth_at) in (0_u32..).zip(&depths_at).take(count) {
+                    let mut mask = u16::MAX;
+                    if N > 1 || quads {
+                        mask = s.sign_bits((listed << (31 - sample)).bitcast());
+                    }
+                    let new = V::depth(&depths, s, moved(first, offsets[0], *depth_at));
+                    let new = plan.tests.stored.of(s, new);
+                    let stored: f32x16<S> = stored[sample as usize].bitcast();
+                    let mut stored = stored.to_array();
+                    let stored = (!depth.is_empty()).then_some(&mut stored);
+                    mask &= plan.tests.would_pass(s, new, stored);
+                    any |= mask;
+                    if N > 1 || quads {
+                        let bit = <u32x16<S> as SimdBase<S>>::splat(s, 1 << sample);
+                        samples |= s.mask_from_bits(mask).select(bit, zero);
+                    }
+                }
+                (if quads { whole_quads(any) } else { any }, samples)
+            },
+        );
     }
 
     #[inline(always)]
@@ -33,15 +87,16 @@ impl<const N: usize> InOrder<'_, '_, '_, '_, N> {
         fragments.retain(
             s,
             #[inline(always)]
-            |pixels| {
+            |[pixels, _, samples]| {
                 let pixels = Pixels(pixels);
                 let order = AnyOrder::new(s, pixels.lane());
                 let first = small.small.distances(s, pixels, order);
                 let center = moved(first, offset, [0.5; 2]);
-                match V::alpha_places(small, s, order, test, center) {
+                let kept = match V::alpha_places(small, s, order, test, center) {
                     Some(places) => may_pass(s, test, &places, quads),
                     None => u16::MAX,
-                }
+                };
+                (kept, samples)
             },
         );
         let dropped = before - fragments.len();

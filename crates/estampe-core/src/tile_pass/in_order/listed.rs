@@ -109,11 +109,11 @@ impl<const N: usize> InOrder<'_, '_, '_, '_, N> {
             TestTiming::Early if !is_read_only => EarlyTests::OfPackets,
             TestTiming::Early | TestTiming::RejectEarly => EarlyTests::OfList,
         };
-        self.test_list::<_, V>(s, early == EarlyTests::OfList);
-        if let Some(test) = &plan.alpha_test
-            && early != EarlyTests::OfPackets
-        {
+        if let Some(test) = &plan.alpha_test {
+            self.test_list::<_, V>(s, false);
             self.test_alpha_of_list::<V>(test);
+        } else {
+            self.test_list::<_, V>(s, early == EarlyTests::OfList);
         }
         let mut from = 0;
         let count = self.scratch.in_order.fragments.len();
@@ -328,7 +328,7 @@ impl<const N: usize> InOrder<'_, '_, '_, '_, N> {
 
     /// The places in a pixel at which its samples have their depths.
     #[inline(always)]
-    fn depths_at<V: ListedValues>(&self) -> [[f32; 2]; N] {
+    pub(super) fn depths_at<V: ListedValues>(&self) -> [[f32; 2]; N] {
         if V::has_depths_of_centers(&self.scratch.in_order.small) {
             return [[0.5; 2]; N];
         }

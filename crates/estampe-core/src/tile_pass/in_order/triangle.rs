@@ -34,7 +34,7 @@ impl<const N: usize> InOrder<'_, '_, '_, '_, N> {
         if self.stores_in_order {
             self.scratch.in_order.list.sort();
         }
-        let mut interpolant = TriangleInterpolant {
+        let interpolant = TriangleInterpolant {
             origin: plane.origin,
             z: plane.z,
             iw: triangle.iw,
@@ -44,26 +44,31 @@ impl<const N: usize> InOrder<'_, '_, '_, '_, N> {
             gradients: self.source.gradients,
             all_smooth: plan.all_smooth,
         };
-        let is_visible = self.test_early(s, &interpolant, front);
-        if !is_visible && coverage.whole == 0 {
-            return;
-        }
         // Moved out for the calls, because the interpolant borrows them.
         let mut planes = std::mem::take(&mut self.planes);
-        if let Some(lane) = planes_of {
-            let of_batch = &self.scratch.in_order.small.planes;
-            of_batch.copy_lane(lane, self.source.modes, &mut planes);
-            self.scratch.statistics.planes_in_lanes += 1;
-        } else {
-            set_planes(s, &mut planes, triangle, &self.source, plan.all_smooth);
+        if let Some(test) = &plan.alpha_test {
+            self.set_planes(s, triangle, planes_of, &mut planes);
+            let with_planes = TriangleInterpolant {
+                planes: VaryingPlanes::new(&planes),
+                ..interpolant
+            };
+            if !self.test_alpha_of_triangle(test, &with_planes) {
+                self.planes = planes;
+                return;
+            }
         }
-        interpolant.planes = VaryingPlanes::new(&planes);
-        if let Some(test) = &plan.alpha_test
-            && !self.test_alpha_of_triangle(test, &interpolant)
-        {
+        let is_visible = self.test_early(s, &interpolant, front);
+        if !is_visible && coverage.whole == 0 {
             self.planes = planes;
             return;
         }
+        if plan.alpha_test.is_none() {
+            self.set_planes(s, triangle, planes_of, &mut planes);
+        }
+        let interpolant = TriangleInterpolant {
+            planes: VaryingPlanes::new(&planes),
+            ..interpolant
+        };
         if self.gathers {
             if interpolant.is_constant() {
                 self.gather(interpolant.planes.origins(), front);
@@ -79,6 +84,25 @@ impl<const N: usize> InOrder<'_, '_, '_, '_, N> {
             self.queue_triangle(&interpolant, front);
         }
         self.planes = planes;
+    }
+
+    /// Sets a triangle's planes: those of a lane of the batch, or new ones.
+    #[inline(always)]
+    fn set_planes<S: Lanes>(
+        &mut self,
+        s: S,
+        triangle: &Triangle,
+        planes_of: Option<usize>,
+        planes: &mut [f32],
+    ) {
+        if let Some(lane) = planes_of {
+            let of_batch = &self.scratch.in_order.small.planes;
+            of_batch.copy_lane(lane, self.source.modes, planes);
+            self.scratch.statistics.planes_in_lanes += 1;
+        } else {
+            let all_smooth = self.work.plan.all_smooth;
+            set_planes(s, planes, triangle, &self.source, all_smooth);
+        }
     }
 
     /// Lists the packets that a triangle covers, less those that hierarchical z rejects. `None` if
