@@ -109,6 +109,38 @@ fn of_other_shaders_nothing_is_known() {
     }
 }
 
+/// What was found with some uniforms does not hold of others.
+#[test]
+fn thresholds_follow_the_uniforms() {
+    let program = program(
+        "let color = textureSample(map, s, in.uv);
+        if numbers.x > 0.0 && color.a < numbers.y { discard; }
+        return color;",
+    );
+    let textures = Textures::new(SamplerDescriptor::trilinear_repeat());
+    let failing = |numbers: [f32; 4]| {
+        let bindings = textures.bindings_with(Level::best(), numbers);
+        let request = AlphaTestRequest {
+            to_coverage: false,
+            primitives: usize::MAX,
+        };
+        let test = program.alpha_test(&bindings, request);
+        test.map(|test| test.failing)
+    };
+    for _ in 0..2 {
+        for step in 0..20_u8 {
+            // 1/256 above the code that is one less.
+            let threshold = f32::from(step + 3) / 255.0;
+            assert_eq!(
+                failing([1.0, threshold, 0.0, 0.0]),
+                Some(step + 2),
+                "{step}"
+            );
+            assert_eq!(failing([0.0, threshold, 0.0, 0.0]), None);
+        }
+    }
+}
+
 /// Coordinates, layers and levels of detail must be varyings and their derivatives.
 #[test]
 fn places_are_varyings() {

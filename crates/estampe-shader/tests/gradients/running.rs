@@ -110,6 +110,11 @@ impl Textures {
     }
 
     pub(super) fn bindings(&self, level: Level) -> Bindings {
+        self.bindings_with(level, [0.03, -0.02, 1.5, 1e30])
+    }
+
+    /// The bindings, with `numbers` as the uniform.
+    pub(super) fn bindings_with(&self, level: Level, numbers: [f32; 4]) -> Bindings {
         let bound = |(binding, view): &(u32, TexelView)| {
             let texture = Arc::new(BoundTexture::new(view.clone(), None, level));
             (*binding, BoundResource::Other(OtherResource(texture)))
@@ -117,7 +122,7 @@ impl Textures {
         let mut entries: Vec<_> = self.views.iter().map(bound).collect();
         entries.push((0, BoundResource::Sampler(self.sampler)));
         entries.push((9, BoundResource::Sampler(self.compared)));
-        let numbers = [0.03_f32, -0.02, 1.5, 1e30].map(f32::to_bits);
+        let numbers = numbers.map(f32::to_bits);
         let numbers = BoundResource::Buffer {
             buffer: BufferData::from_words(numbers.to_vec()),
             offset: 0,

@@ -19,10 +19,14 @@ use estampe_ir::interface::{Input, Output};
 use estampe_ir::tree::{Node, Tree, passes};
 use estampe_types::shader::AlphaTestRequest;
 use range::Range;
-use walk::Walk;
+use std::sync::{Mutex, PoisonError};
+use walk::{Uniform, Walk};
 
 /// The most nodes of a tree that is evaluated for a draw.
 const MOST_NODES: usize = 256;
+
+/// The most answers that are kept: materials that are drawn in turns differ in few thresholds.
+const MOST_ANSWERS: usize = 8;
 
 /// Alphas up to this cover none of four samples or fewer: ⌊4·alpha + ½⌋ is 0. A little less than
 /// ⅛, at which the sum would be rounded up.
@@ -42,6 +46,15 @@ pub(super) struct AlphaTests {
 struct Decision {
     tree: Tree,
     read: u32,
+    /// What was found for uniforms of draws before.
+    answers: Mutex<Vec<Answer>>,
+}
+
+/// The greatest code that fails with some uniforms, which are all that were read to find it.
+#[derive(Debug)]
+struct Answer {
+    uniforms: Vec<(Uniform, Option<u32>)>,
+    failing: Option<u8>,
 }
 
 impl AlphaTests {
@@ -59,9 +72,9 @@ impl AlphaTests {
 
     /// The read that decides, and the code of the greatest alpha for which fragments have no
     /// effect, if the read's alpha is at most 1/256 above it.
-    pub(super) fn failing<'a>(
-        &'a self,
-        sources: Sources<'a>,
+    pub(super) fn failing(
+        &self,
+        sources: Sources<'_>,
         request: AlphaTestRequest,
     ) -> Option<(u32, u8)> {
         let coverage = self.coverage.as_ref().filter(|_| request.to_coverage);
@@ -97,15 +110,37 @@ impl Decision {
             _ => None,
         });
         let read = alphas.next()?;
-        (alphas.next().is_none() && reads.place_of(read).is_some())
-            .then_some(Self { tree: part, read })
+        (alphas.next().is_none() && reads.place_of(read).is_some()).then_some(Self {
+            tree: part,
+            read,
+            answers: Mutex::default(),
+        })
     }
 
-    fn failing<'a>(&'a self, sources: Sources<'a>) -> Option<u8> {
-        let fails = |code: u8| {
+    /// The greatest code that fails, as it was found before if the uniforms are the same.
+    fn failing(&self, sources: Sources<'_>) -> Option<u8> {
+        let mut answers = self.answers.lock().unwrap_or_else(PoisonError::into_inner);
+        let is_same = |answer: &Answer| {
+            let mut uniforms = answer.uniforms.iter();
+            uniforms.all(|(uniform, word)| uniform.load(sources) == *word)
+        };
+        if let Some(answer) = answers.iter().find(|answer| is_same(answer)) {
+            return answer.failing;
+        }
+        let answer = self.answer(sources);
+        if answers.len() == MOST_ANSWERS {
+            answers.remove(0);
+        }
+        let failing = answer.failing;
+        answers.push(answer);
+        failing
+    }
+
+    fn answer(&self, sources: Sources<'_>) -> Answer {
+        let mut walk = Walk::new(&self.tree, sources);
+        let mut fails = |code: u8| {
             let alpha = Range::new(0.0, f32::from(code) / 255.0 + 1.0 / 256.0);
-            let mut walk = Walk::new(&self.tree, sources, (self.read, alpha));
-            let result = walk.output();
+            let result = walk.output((self.read, alpha));
             match self.tree.interface.outputs.first() {
                 Some(Output::Cover) => result.mask() == Some(false),
                 _ => result
@@ -113,20 +148,23 @@ impl Decision {
                     .is_some_and(|alpha| alpha.most <= COVERS_NOTHING),
             }
         };
-        if !fails(0) {
-            return None;
-        }
         // What fails up to an alpha fails up to smaller ones.
-        let (mut failing, mut end) = (0, u8::MAX);
-        while end - failing > 1 {
-            let middle = failing + (end - failing) / 2;
-            if fails(middle) {
-                failing = middle;
-            } else {
-                end = middle;
+        let failing = fails(0).then(|| {
+            let (mut failing, mut end) = (0, u8::MAX);
+            while end - failing > 1 {
+                let middle = failing + (end - failing) / 2;
+                if fails(middle) {
+                    failing = middle;
+                } else {
+                    end = middle;
+                }
             }
+            failing
+        });
+        Answer {
+            uniforms: walk.uniforms,
+            failing,
         }
-        Some(failing)
     }
 }
 

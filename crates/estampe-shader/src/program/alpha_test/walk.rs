@@ -7,28 +7,59 @@ use estampe_ir::interpreter::Words;
 use estampe_ir::tree::{Label, Node, Tree};
 use estampe_ir::{Op, Value};
 
-/// A walk through a tree without loops.
-pub(super) struct Walk<'a> {
+/// The place of a uniform word.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Uniform {
+    /// A word of the immediates, by its number.
+    Immediate(u32),
+    /// A word of a buffer, by its position in the interface and the offset in bytes.
+    Buffer(u32, u32),
+}
+
+impl Uniform {
+    /// The word; `None` in a buffer that others may store to.
+    pub(super) fn load(self, sources: Sources<'_>) -> Option<u32> {
+        match self {
+            Self::Immediate(at) => {
+                let word = sources.immediates.get(at as usize);
+                Some(word.copied().unwrap_or(0))
+            }
+            Self::Buffer(at, offset) => {
+                let buffer = sources.buffers.get(at as usize)?;
+                matches!(buffer.words(), Words::ReadOnly(_)).then(|| buffer.load(offset))
+            }
+        }
+    }
+}
+
+/// Walks through a tree without loops.
+pub(super) struct Walk<'a, 's> {
     tree: &'a Tree,
-    sources: Sources<'a>,
+    sources: Sources<'s>,
     /// A texture read, and its alpha.
     alpha: (u32, Range),
     known: Vec<Known>,
+    /// The uniform words that were read, each once.
+    pub(super) uniforms: Vec<(Uniform, Option<u32>)>,
 }
 
-impl<'a> Walk<'a> {
-    pub(super) fn new(tree: &'a Tree, sources: Sources<'a>, alpha: (u32, Range)) -> Self {
+impl<'a, 's> Walk<'a, 's> {
+    pub(super) fn new(tree: &'a Tree, sources: Sources<'s>) -> Self {
         Self {
             tree,
             sources,
-            alpha,
-            known: vec![Known::Nothing; tree.len()],
+            alpha: (0, Range::new(0.0, 0.0)),
+            known: Vec::new(),
+            uniforms: Vec::new(),
         }
     }
 
-    /// Walks, and tells what is known of the first output.
-    pub(super) fn output(&mut self) -> Known {
+    /// Walks with the alpha of a read, and tells what is known of the first output.
+    pub(super) fn output(&mut self, alpha: (u32, Range)) -> Known {
         let tree = self.tree;
+        self.alpha = alpha;
+        self.known.clear();
+        self.known.resize(tree.len(), Known::Nothing);
         self.body(&tree.body, &mut Vec::new());
         tree.outputs
             .first()
@@ -120,7 +151,7 @@ impl<'a> Walk<'a> {
     }
 
     /// What is known of the first result of an operation; of others nothing is.
-    fn op(&self, op: &Op) -> Known {
+    fn op(&mut self, op: &Op) -> Known {
         let of = |value: &Value| self.of(*value);
         match op {
             Op::Constant(word) => Known::Word(*word),
@@ -141,33 +172,30 @@ impl<'a> Walk<'a> {
             // Others of the quad may have other masks.
             Op::QuadAny(a) if of(a) == Known::Mask(true) => Known::Mask(true),
             Op::LoadBuffer { buffer, offset } => match of(offset) {
-                Known::Word(offset) => self.load(*buffer, offset),
+                Known::Word(offset) => self.uniform(Uniform::Buffer(*buffer, offset)),
                 _ => Known::Nothing,
             },
             _ => Known::Nothing,
         }
     }
 
-    fn input(&self, at: u32) -> Known {
+    fn input(&mut self, at: u32) -> Known {
         let (read, alpha) = self.alpha;
         match self.tree.interface.inputs.get(at as usize) {
             Some(Input::TextureRead {
                 read: of,
                 component: 3,
             }) if *of == read => Known::Range(alpha),
-            Some(Input::PushConstant(at)) => {
-                let word = self.sources.immediates.get(*at as usize);
-                Known::Word(word.copied().unwrap_or(0))
-            }
+            Some(Input::PushConstant(at)) => self.uniform(Uniform::Immediate(*at)),
             _ => Known::Nothing,
         }
     }
 
-    /// A word of a buffer that nothing stores to.
-    fn load(&self, buffer: u32, offset: u32) -> Known {
-        match self.sources.buffers.get(buffer as usize) {
-            Some(of) if matches!(of.words(), Words::ReadOnly(_)) => Known::Word(of.load(offset)),
-            _ => Known::Nothing,
+    fn uniform(&mut self, at: Uniform) -> Known {
+        let word = at.load(self.sources);
+        if !self.uniforms.contains(&(at, word)) {
+            self.uniforms.push((at, word));
         }
+        word.map_or(Known::Nothing, Known::Word)
     }
 }
