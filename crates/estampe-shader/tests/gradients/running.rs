@@ -42,7 +42,15 @@ fn view(
         ..TexelDescriptor::new_2d(width, height, TextureFormat::Rgba8Unorm)
     };
     let texels = width * height * depth_or_layers;
-    let bytes: Vec<u8> = (0..texels * 4).map(|_| random.u8(..)).collect();
+    // Half of the texels are transparent.
+    let byte = |at: u32| {
+        if at % 4 == 3 && at < texels * 2 {
+            0
+        } else {
+            random.u8(..)
+        }
+    };
+    let bytes: Vec<u8> = (0..texels * 4).map(byte).collect();
     let descriptor = match dimension {
         TextureDimension::D1 => descriptor,
         _ => descriptor.with_all_levels(),

@@ -24,6 +24,9 @@ const MOST_ROWS: usize = 1 << 17;
 /// Texels for each primitive that is drawn: looking at so many takes a tenth of its time at most.
 const TEXELS_EACH: usize = 32;
 
+/// One cell of so many fails at least in maps that are worth a lookup for each fragment.
+const LEAST_FAILING: usize = 8;
+
 /// The most mip levels of a map.
 const MOST_LEVELS: usize = 16;
 
@@ -33,8 +36,8 @@ const ENDS: [f32; ALPHA_STEPS + 1] = [0.0, 0.292_481_26, 0.5, 0.792_481_26, 1.0]
 
 impl SampledTexture {
     /// Where a sampled alpha may be greater than that of a code by more than 1/256; `None` if there
-    /// is no map for textures and samplers of this kind, or so few primitives were drawn with the
-    /// texture that none was made.
+    /// is no map for textures and samplers of this kind, if it would fail in few places, or if so few
+    /// primitives were drawn with the texture that none was made.
     #[must_use]
     pub fn alpha_map(&self, failing: u8, primitives: usize) -> Option<Arc<AlphaMap>> {
         let key = self.key_of_alpha(failing)?;
@@ -126,7 +129,9 @@ impl SampledTexture {
                 }));
             }
         }
-        Some(AlphaMap {
+        let failing: u32 = rows.iter().map(|row| row.count_zeros()).sum();
+        let is_worth = failing as usize * LEAST_FAILING >= rows.len() * ALPHA_CELLS;
+        is_worth.then(|| AlphaMap {
             size: key.size.map(|side| side as f32),
             repeats: key.repeats,
             steps: key.steps,

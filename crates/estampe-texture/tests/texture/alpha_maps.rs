@@ -10,13 +10,16 @@ use estampe_types::shader::{ALPHA_CELLS, ALPHA_STEPS};
 
 const CELLS: i64 = ALPHA_CELLS as i64;
 
-/// An array of which most texels have small alphas, and its sampler.
+/// An array of which most texels have small alphas, those of the upper half 0, and its sampler.
 fn texture(random: &mut Random, sides: [u32; 3], sampler: SamplerDescriptor) -> SampledTexture {
     let [width, height, layers] = sides;
     let mut bytes = random.bytes((width * height * layers * 4) as usize);
-    for texel in bytes.as_chunks_mut::<4>().0 {
-        texel[3] = match random.bits() % 24 {
+    for (at, texel) in (0..).zip(bytes.as_chunks_mut::<4>().0) {
+        let is_upper = at / width % height < height / 2;
+        texel[3] = match random.bits() % 200 {
             0 => 255,
+            1..8 if !is_upper => 255,
+            _ if is_upper => 0,
             _ => texel[3] / 4,
         };
     }
@@ -58,7 +61,7 @@ fn texels_of(cell: i64, count: i64, repeats: bool) -> Vec<i64> {
 #[test]
 fn a_cell_passes_where_filtering_reads_a_greater_alpha() {
     let random = &mut Random::new(77);
-    let (mut set, mut clear) = (0, 0);
+    let (mut set, mut clear, mut without) = (0, 0, 0);
     for _ in 0..24 {
         let sides = [70, 70, 3].map(|most| 1 + random.bits() % most);
         let repeats = [(); 2].map(|()| random.bits().is_multiple_of(2));
@@ -81,7 +84,10 @@ fn a_cell_passes_where_filtering_reads_a_greater_alpha() {
             },
         );
         let failing = [60, 0, 127, 30][random.bits() as usize % 4];
-        let map = texture.alpha_map(failing, usize::MAX).unwrap();
+        let Some(map) = texture.alpha_map(failing, usize::MAX) else {
+            without += 1;
+            continue;
+        };
         let data = texture.view().texture();
         assert_eq!(map.size, [sides[0] as f32, sides[1] as f32]);
         let greatest = |level: usize, layer: u32, [column, row]: [i64; 2]| {
@@ -138,6 +144,8 @@ fn a_cell_passes_where_filtering_reads_a_greater_alpha() {
         set > 10_000 && clear > 10_000,
         "{set} cells pass, {clear} fail"
     );
+    // Those in which nearly all cells pass.
+    assert!((1..12).contains(&without), "{without} have no map");
 }
 
 /// Few primitives are drawn with a texture of many texels: it is not looked through for them.
@@ -164,7 +172,7 @@ fn maps_are_made_when_they_are_likely_to_be_worth_it() {
 #[test]
 fn kinds_that_have_no_map_give_none() {
     let random = &mut Random::new(79);
-    let mut of = |sampler| texture(random, [8, 8, 1], sampler).alpha_map(9, usize::MAX);
+    let mut of = |sampler| texture(random, [32, 32, 1], sampler).alpha_map(9, usize::MAX);
     let repeated = SamplerDescriptor::trilinear_repeat();
     assert!(of(repeated).is_some());
     for sampler in [
