@@ -14,15 +14,16 @@ use estampe_simd::{Bytes, Lanes, Select, SimdBase, bits_of, dispatch, f32x16, u3
 use estampe_types::shader::AlphaTest;
 
 impl<const N: usize> InOrder<'_, '_, '_, '_, N> {
-    /// Drops the listed fragments that certainly have no effect, and then those that fail the depth
-    /// test. A function of its own, as most draws have no alpha test.
+    /// Makes fragments of the listed pixels, less those that certainly have no effect, and then
+    /// those that fail the depth test: they are fewer. A function of its own, as most draws have no
+    /// alpha test.
     #[inline(never)]
     pub(super) fn test_alpha_of_list<V: ListedValues>(&mut self, test: &AlphaTest) {
         if const { N <= 4 } {
             let tests = &self.work.plan.tests;
             let rejects = self.work.plan.timing == TestTiming::RejectEarly && !tests.is_empty();
             dispatch!(@wide self.work.level, s => {
-                self.test_alpha_of_lanes::<_, V>(s, test);
+                self.test_list::<_, V>(s, false, Some(test));
                 if rejects {
                     self.reject_lanes::<_, V>(s);
                 }
@@ -74,33 +75,6 @@ impl<const N: usize> InOrder<'_, '_, '_, '_, N> {
                 (if quads { whole_quads(any) } else { any }, samples)
             },
         );
-    }
-
-    #[inline(always)]
-    fn test_alpha_of_lanes<S: Lanes, V: ListedValues>(&mut self, s: S, test: &AlphaTest) {
-        let offset = self.samples.offsets()[0];
-        let quads = self.listing == Listing::Quads;
-        let InOrderScratch {
-            small, fragments, ..
-        } = &mut self.scratch.in_order;
-        let before = fragments.len();
-        fragments.retain(
-            s,
-            #[inline(always)]
-            |[pixels, _, samples]| {
-                let pixels = Pixels(pixels);
-                let order = AnyOrder::new(s, pixels.lane());
-                let first = small.small.distances(s, pixels, order);
-                let center = moved(first, offset, [0.5; 2]);
-                let kept = match V::alpha_places(small, s, order, test, center) {
-                    Some(places) => may_pass(s, test, &places, quads),
-                    None => u16::MAX,
-                };
-                (kept, samples)
-            },
-        );
-        let dropped = before - fragments.len();
-        self.scratch.statistics.fragments_failing_alpha += dropped as u64;
     }
 
     /// Drops the fragments of a triangle's packets that certainly have no effect; false if none is

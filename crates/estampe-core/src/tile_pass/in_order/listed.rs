@@ -5,7 +5,7 @@ use super::tests::{run_apart, samples_in};
 use super::{InOrder, InOrderScratch};
 use crate::bounds::lane_order::AnyOrder;
 use crate::depth_format::clamp_depth;
-use crate::fragment::alpha_test::AlphaPlaces;
+use crate::fragment::alpha_test::{AlphaPlaces, may_pass, whole_quads};
 use crate::fragment::cross_fragments::{Row, bits_of_row};
 use crate::fragment::fill::lanes_between;
 use crate::fragment::interpolate::{VaryingSource, WindowPixels};
@@ -110,10 +110,9 @@ impl<const N: usize> InOrder<'_, '_, '_, '_, N> {
             TestTiming::Early | TestTiming::RejectEarly => EarlyTests::OfList,
         };
         if let Some(test) = &plan.alpha_test {
-            self.test_list::<_, V>(s, false);
             self.test_alpha_of_list::<V>(test);
         } else {
-            self.test_list::<_, V>(s, early == EarlyTests::OfList);
+            self.test_list::<_, V>(s, early == EarlyTests::OfList, None);
         }
         let mut from = 0;
         let count = self.scratch.in_order.fragments.len();
@@ -125,9 +124,15 @@ impl<const N: usize> InOrder<'_, '_, '_, '_, N> {
         }
     }
 
-    /// Makes fragments of the listed pixels, less those of which no sample passes.
+    /// Makes fragments of the listed pixels, less those of which no sample passes, or that fail an
+    /// alpha test.
     #[inline(always)]
-    fn test_list<S: Lanes, V: ListedValues>(&mut self, s: S, tests: bool) {
+    pub(super) fn test_list<S: Lanes, V: ListedValues>(
+        &mut self,
+        s: S,
+        tests: bool,
+        alpha_test: Option<&AlphaTest>,
+    ) {
         let plan = self.work.plan;
         let (offsets, count) = (self.samples.offsets(), self.samples.count());
         let depths_at = self.depths_at::<V>();
@@ -188,8 +193,17 @@ impl<const N: usize> InOrder<'_, '_, '_, '_, N> {
             }
             if quads {
                 // A quad of which any pixel is left stays whole.
-                let of_quads = (any | any >> 1 | any >> 2 | any >> 3) & 0x1111;
-                any = of_quads * 0xF;
+                any = whole_quads(any);
+            }
+            if let Some(test) = alpha_test {
+                let small = &*self.scratch.in_order.small;
+                let center = moved(first, offsets[0], [0.5; 2]);
+                if let Some(places) = V::alpha_places(small, s, order, test, center) {
+                    let kept = may_pass(s, test, &places, quads);
+                    let failing = (any & !kept).count_ones();
+                    self.scratch.statistics.fragments_failing_alpha += u64::from(failing);
+                    any &= kept;
+                }
             }
             let fragments = &mut self.scratch.in_order.fragments;
             fragments.add(s, any, [pixels.0, places, samples]);
