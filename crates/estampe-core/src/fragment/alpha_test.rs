@@ -155,7 +155,7 @@ fn row_of<S: Lanes>(s: S, map: &AlphaMap, (rho2, layer): (f32x16<S>, i32x16<S>))
     let bits: i32x16<S> = rho2.bitcast();
     let step = (bits >> 22) - whole(2 * 127);
     let step = step.max(whole(map.steps[0])).min(whole(map.steps[1]));
-    let layer = layer.max(whole(0)).min(whole(map.layers - 1));
+    let layer = layer.max(whole(0)).min(whole(map.layers.saturating_sub(1)));
     (step * whole(map.layers) + layer) << ALPHA_CELLS.ilog2()
 }
 

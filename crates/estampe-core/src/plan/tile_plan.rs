@@ -160,7 +160,7 @@ fn alpha_test((draw, bindings): (&Draw<'_>, &Bindings), target: &TargetFacts) ->
     if !key.may_test_alpha || target.level.is_scalar() {
         return None;
     }
-    let elements = draw.elements.len() * draw.instances.len();
+    let elements = draw.elements.len().saturating_mul(draw.instances.len());
     let request = AlphaTestRequest {
         to_coverage: key.alpha_to_coverage,
         primitives: elements / 3,

@@ -76,8 +76,11 @@ impl AlphaMaps {
         (primitives, worth): (usize, usize),
         make: impl FnOnce() -> Option<AlphaMap>,
     ) -> Option<Arc<AlphaMap>> {
-        let asked = self.asked.fetch_add(primitives, Ordering::Relaxed);
-        if asked.saturating_add(primitives) < worth {
+        let add = |asked: usize| Some(asked.saturating_add(primitives));
+        let before = self
+            .asked
+            .fetch_update(Ordering::Relaxed, Ordering::Relaxed, add);
+        if before.unwrap_or(0).saturating_add(primitives) < worth {
             return None;
         }
         let mut made = self.made.lock().unwrap_or_else(PoisonError::into_inner);
