@@ -37,7 +37,7 @@ const ENDS: [f32; ALPHA_STEPS + 1] = [0.0, 0.292_481_26, 0.5, 0.792_481_26, 1.0]
 impl SampledTexture {
     /// Where a sampled alpha may be greater than that of a code by more than 1/256; `None` if there
     /// is no map for textures and samplers of this kind, if it would fail in few places, or if so
-    /// few primitives were drawn with the texture that none was made.
+    /// few primitives were drawn with the texture since the last map that none is made yet.
     #[must_use]
     pub fn alpha_map(&self, failing: u8, primitives: usize) -> Option<Arc<AlphaMap>> {
         let key = self.key_of_alpha(failing)?;

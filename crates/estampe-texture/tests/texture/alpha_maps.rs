@@ -162,6 +162,9 @@ fn maps_are_made_when_they_are_likely_to_be_worth_it() {
         &map,
         &texture.alpha_map(9, 0).unwrap()
     ));
+    // Another threshold has to be worth it again.
+    assert_eq!(texture.alpha_map(8, 100), None);
+    assert!(texture.alpha_map(8, 100).is_some());
     // Of other texels there are no maps yet.
     let mut other = estampe_types::TexelData::clone(texture.view().texture());
     other.texels = other.take_texels();

@@ -5,7 +5,6 @@
 //! an [`AlphaMap`] tells of many of them before: no texel that they can read has an alpha that
 //! passes. Such a fragment need not be shaded.
 
-use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// Cells of a map along a side.
@@ -57,41 +56,43 @@ pub struct AlphaMapKey {
 
 /// The maps that were made of a texture's texels.
 #[derive(Debug, Default)]
-pub struct AlphaMaps {
-    /// Primitives for which a map was asked.
-    asked: AtomicUsize,
+pub struct AlphaMaps(Mutex<MadeMaps>);
+
+#[derive(Debug, Default)]
+struct MadeMaps {
     /// `None` where there is no map.
-    made: Mutex<Vec<(AlphaMapKey, Option<Arc<AlphaMap>>)>>,
+    maps: Vec<(AlphaMapKey, Option<Arc<AlphaMap>>)>,
+    /// Primitives that were drawn since without a map.
+    primitives: usize,
 }
 
 impl AlphaMaps {
     /// The most maps that are kept.
     const MOST: usize = 8;
 
-    /// The map of a key, which is made if so many primitives were drawn with the texture that it is
-    /// likely to be worth it.
+    /// The map of a key. A new one is made once `worth` primitives were drawn without a map since
+    /// the last: a threshold that is another in each frame must not have the texture looked through
+    /// for each.
     pub fn get(
         &self,
         key: AlphaMapKey,
         (primitives, worth): (usize, usize),
         make: impl FnOnce() -> Option<AlphaMap>,
     ) -> Option<Arc<AlphaMap>> {
-        let add = |asked: usize| Some(asked.saturating_add(primitives));
-        let before = self
-            .asked
-            .fetch_update(Ordering::Relaxed, Ordering::Relaxed, add);
-        if before.unwrap_or(0).saturating_add(primitives) < worth {
-            return None;
-        }
-        let mut made = self.made.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some((_, map)) = made.iter().find(|(of, _)| *of == key) {
+        let mut made = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some((_, map)) = made.maps.iter().find(|(of, _)| *of == key) {
             return map.clone();
         }
-        let map = make().map(Arc::new);
-        if made.len() == Self::MOST {
-            made.remove(0);
+        made.primitives = made.primitives.saturating_add(primitives);
+        if made.primitives < worth {
+            return None;
         }
-        made.push((key, map.clone()));
+        let map = make().map(Arc::new);
+        if made.maps.len() == Self::MOST {
+            made.maps.remove(0);
+        }
+        made.maps.push((key, map.clone()));
+        made.primitives = 0;
         map
     }
 }
