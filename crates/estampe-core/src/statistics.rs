@@ -69,8 +69,8 @@ pub struct Statistics {
     /// began. They depend on the SIMD level.
     #[doc(hidden)]
     pub fragments_listed_in_order: [u64; 2],
-    /// Fragments that were not shaded, as their texture has no alpha nearby with which they would
-    /// not be discarded, or cover a sample. They depend on the SIMD level.
+    /// Fragments that were not shaded, because no alpha that their texture has there keeps them or
+    /// covers a sample; with them helper invocations. They depend on the SIMD level.
     #[doc(hidden)]
     pub fragments_failing_alpha: u64,
     /// Packets of which shading left few fragments, and the packets that these were moved to before

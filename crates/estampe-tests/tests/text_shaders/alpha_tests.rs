@@ -3,14 +3,13 @@
 //! The same picture is drawn with shaders whose alpha test the compiler recognises, and with others
 //! that add a varying to alpha, which is −0 everywhere, so that nothing is known of the sum.
 
-use super::{devices, module};
+use super::{devices, module, program};
 use estampe::state::{ColorTargetState, DepthStencilState, MultisampleState, VertexBufferLayout};
 use estampe::{
     AddressMode, BindGroup, BindGroupDescriptor, BindingResource, ColorAttachment,
-    DepthStencilAttachment, Device, Draw, EntryPointDescriptor, Extent3d, FilterMode, RenderPass,
-    RenderPipeline, RenderPipelineDescriptor, SamplerDescriptor, ShaderModule, ShaderSource,
-    Statistics, TextureDescriptor, TextureFormat, TextureViewDescriptor, VertexFormat,
-    ViewDimension, bytes_of,
+    DepthStencilAttachment, Device, Draw, Extent3d, FilterMode, RenderPass, RenderPipeline,
+    RenderPipelineDescriptor, SamplerDescriptor, ShaderModule, ShaderSource, Statistics,
+    TextureDescriptor, TextureFormat, TextureViewDescriptor, VertexFormat, ViewDimension, bytes_of,
 };
 use estampe_tests::Random;
 
@@ -206,13 +205,6 @@ fn pipeline(
     module: &ShaderModule,
     (picture, name): (&Picture, &'static str),
 ) -> RenderPipeline {
-    let program = device.create_program(&estampe::ProgramDescriptor {
-        fragment: Some(EntryPointDescriptor {
-            name: Some(name),
-            ..EntryPointDescriptor::new(module)
-        }),
-        ..module.program()
-    });
     let formats = [
         VertexFormat::Float32x4,
         VertexFormat::Float32x2,
@@ -227,7 +219,7 @@ fn pipeline(
             ..MultisampleState::default()
         },
         targets: vec![Some(ColorTargetState::from(TextureFormat::Rgba8Unorm))],
-        ..RenderPipelineDescriptor::with_program(program.unwrap_or_else(|error| panic!("{error}")))
+        ..RenderPipelineDescriptor::with_program(program(device, module, name))
     });
     pipeline.unwrap_or_else(|error| panic!("{error}"))
 }

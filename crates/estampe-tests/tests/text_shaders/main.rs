@@ -19,8 +19,10 @@ mod stored_colors;
 mod subgroups;
 
 use estampe::{
-    Device, DeviceDescriptor, Level, ShaderModule, ShaderModuleDescriptor, ShaderSource,
+    Device, DeviceDescriptor, EntryPointDescriptor, Level, Program, ProgramDescriptor,
+    ShaderModule, ShaderModuleDescriptor, ShaderSource,
 };
+use std::sync::Arc;
 
 /// A device for every SIMD level, with 1 and 3 threads, and one that interprets shaders.
 fn devices() -> impl Iterator<Item = (String, Device)> {
@@ -51,4 +53,16 @@ fn devices() -> impl Iterator<Item = (String, Device)> {
 fn module(device: &Device, source: ShaderSource<'_>) -> ShaderModule {
     let module = device.create_shader_module(&ShaderModuleDescriptor::new(source));
     module.unwrap_or_else(|errors| panic!("{errors}"))
+}
+
+/// The program of a module's vertex shader and of the fragment shader of a name.
+fn program(device: &Device, module: &ShaderModule, fragment: &str) -> Arc<dyn Program> {
+    let program = device.create_program(&ProgramDescriptor {
+        fragment: Some(EntryPointDescriptor {
+            name: Some(fragment),
+            ..EntryPointDescriptor::new(module)
+        }),
+        ..module.program()
+    });
+    program.unwrap_or_else(|error| panic!("{error}"))
 }

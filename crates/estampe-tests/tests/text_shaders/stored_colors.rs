@@ -3,12 +3,12 @@
 //! Colours of primitives over which nothing varies are kept from primitive to primitive and from
 //! tile to tile. Those that were shaded before a store must not be shown behind it.
 
-use super::{devices, module};
+use super::{devices, module, program};
 use estampe::state::{BlendState, ColorTargetState};
 use estampe::{
     BindGroup, BindGroupDescriptor, BindingResource, Buffer, ColorAttachment, Device, Draw,
-    EntryPointDescriptor, RenderPass, RenderPipeline, RenderPipelineDescriptor, ShaderModule,
-    ShaderSource, Statistics, TextureDescriptor, TextureFormat, VertexFormat, bytes_of,
+    RenderPass, RenderPipeline, RenderPipelineDescriptor, ShaderModule, ShaderSource, Statistics,
+    TextureDescriptor, TextureFormat, VertexFormat, bytes_of,
 };
 use estampe_tests::Random;
 use estampe_types::state::VertexBufferLayout;
@@ -83,13 +83,6 @@ fn panels(random: &mut Random, count: u32) -> Vec<Vertex> {
 }
 
 fn pipeline(device: &Device, module: &ShaderModule, name: &'static str) -> RenderPipeline {
-    let program = device.create_program(&estampe::ProgramDescriptor {
-        fragment: Some(EntryPointDescriptor {
-            name: Some(name),
-            ..EntryPointDescriptor::new(module)
-        }),
-        ..module.program()
-    });
     let formats = [
         VertexFormat::Float32x2,
         VertexFormat::Float32x4,
@@ -102,7 +95,7 @@ fn pipeline(device: &Device, module: &ShaderModule, name: &'static str) -> Rende
             blend: Some(BlendState::PREMULTIPLIED_ALPHA_BLENDING),
             ..TextureFormat::Rgba8Unorm.into()
         })],
-        ..RenderPipelineDescriptor::with_program(program.unwrap_or_else(|error| panic!("{error}")))
+        ..RenderPipelineDescriptor::with_program(program(device, module, name))
     });
     pipeline.unwrap_or_else(|error| panic!("{error}"))
 }

@@ -14,7 +14,6 @@ mod walk;
 
 use super::nondependent::Reads;
 use super::uniforms::Sources;
-use estampe_ir::Op;
 use estampe_ir::interface::{Input, Output};
 use estampe_ir::tree::{Node, Tree, passes};
 use estampe_types::shader::AlphaTestRequest;
@@ -98,17 +97,20 @@ impl Decision {
         part.interface.outputs = vec![output];
         part.outputs = vec![tree.outputs[at]];
         passes::dead_code(&mut part);
+        passes::unused_inputs(&mut part);
         let mut count = 0;
         if !is_walkable(&part.body, &mut count) || count > MOST_NODES {
             return None;
         }
         // One read decides: of several, none would be known to be small.
-        let inputs = part.interface.inputs.iter();
-        let used = used_inputs(&part.body);
-        let mut alphas = inputs.zip(0_u32..).filter_map(|(input, at)| match input {
-            Input::TextureRead { read, component: 3 } if used.contains(&at) => Some(*read),
-            _ => None,
-        });
+        let mut alphas = part
+            .interface
+            .inputs
+            .iter()
+            .filter_map(|input| match input {
+                Input::TextureRead { read, component: 3 } => Some(*read),
+                _ => None,
+            });
         let read = alphas.next()?;
         (alphas.next().is_none() && reads.place_of(read).is_some()).then_some(Self {
             tree: part,
@@ -177,23 +179,4 @@ fn is_walkable(nodes: &[Node], count: &mut usize) -> bool {
         Node::Block { body, .. } => is_walkable(body, count),
         Node::Loop { .. } => false,
     })
-}
-
-/// The positions of the inputs that a body reads.
-fn used_inputs(nodes: &[Node]) -> Vec<u32> {
-    let mut used = Vec::new();
-    let mut open = vec![nodes];
-    while let Some(nodes) = open.pop() {
-        for node in nodes {
-            match node {
-                Node::Op {
-                    op: Op::Input(at), ..
-                } => used.push(*at),
-                Node::Op { .. } | Node::Branch { .. } => {}
-                Node::If { accept, reject, .. } => open.extend([&accept[..], &reject[..]]),
-                Node::Block { body, .. } | Node::Loop { body, .. } => open.push(body),
-            }
-        }
-    }
-    used
 }
