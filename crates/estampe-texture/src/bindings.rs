@@ -1,6 +1,6 @@
 //! The textures among the resources that a draw binds.
 
-use crate::{BoundTexture, SampledTexture, TexelDescriptor, TexelView};
+use crate::{BoundTexture, SampledTexture, TexelDescriptor, TexelView, TiledTexels};
 use estampe_types::{Bindings, Limits, SamplerDescriptor, TextureFormat};
 use std::sync::LazyLock;
 
@@ -12,6 +12,10 @@ pub trait TextureBindings {
 
     /// The texture without a sampler at a group and binding number, to fetch texels from.
     fn texture(&self, group: u32, binding: u32) -> &TexelView;
+
+    /// The texels of the texture without a sampler at a group and binding number as an attachment
+    /// stores them, if they are bound so: for loads at the fragment's own pixel.
+    fn tiled_texels(&self, group: u32, binding: u32) -> Option<&TiledTexels>;
 
     /// The texture at one group and binding number with the sampler at another one; `None` if
     /// either is not bound, or the sampler cannot sample the texture.
@@ -38,6 +42,10 @@ impl TextureBindings for Bindings {
     fn texture(&self, group: u32, binding: u32) -> &TexelView {
         self.other(group, binding)
             .map_or_else(|| ZERO.view(), BoundTexture::view)
+    }
+
+    fn tiled_texels(&self, group: u32, binding: u32) -> Option<&TiledTexels> {
+        self.other(group, binding).and_then(BoundTexture::tiles)
     }
 
     fn texture_with_sampler(

@@ -1,6 +1,6 @@
 //! [`BoundTexture`]: a texture that a draw binds without a sampler.
 
-use crate::{SampledTexture, TexelView, TexelViewDescriptor, texture_from_depth};
+use crate::{SampledTexture, TexelView, TexelViewDescriptor, TiledTexels, texture_from_depth};
 use estampe_simd::Level;
 use estampe_types::{SamplerDescriptor, ShadowMap};
 use std::sync::{Arc, OnceLock};
@@ -12,6 +12,7 @@ pub struct BoundTexture {
     /// False if it has a shape alone.
     has_texels: bool,
     depths: Option<ShadowMap>,
+    tiles: Option<TiledTexels>,
     level: Level,
     /// The first of the samplers that were used.
     first: OnceLock<Box<Sampled>>,
@@ -36,17 +37,23 @@ impl BoundTexture {
             view,
             has_texels: true,
             depths,
+            tiles: None,
             level,
             first: OnceLock::new(),
         }
     }
 
-    /// Binds a depth texture that shaders only compare, or ask for its size: `view` need not have
-    /// texels. Where a sampler reads them all the same, they are taken from the depths.
+    /// Binds a texture of which shaders ask for the size, and what else is given: depths to compare
+    /// with, and texels that they load at the fragment's own pixel. The view has no texels. Where a
+    /// sampler reads them all the same, they are taken from the depths.
     #[must_use]
-    pub fn of_depths(view: TexelView, depths: ShadowMap, level: Level) -> Self {
-        let mut bound = Self::new(view, Some(depths), level);
-        bound.has_texels = false;
+    pub fn without_texels(
+        view: TexelView,
+        (depths, tiles): (Option<ShadowMap>, Option<TiledTexels>),
+        level: Level,
+    ) -> Self {
+        let mut bound = Self::new(view, depths, level);
+        (bound.has_texels, bound.tiles) = (false, tiles);
         bound
     }
 
@@ -54,6 +61,13 @@ impl BoundTexture {
     #[must_use]
     pub fn view(&self) -> &TexelView {
         &self.view
+    }
+
+    /// The texels that shaders load at the fragment's own pixel, if they are there as an attachment
+    /// stores them.
+    #[must_use]
+    pub fn tiles(&self) -> Option<&TiledTexels> {
+        self.tiles.as_ref()
     }
 
     /// The texture with a sampler, made when it is first asked for. `None` if the sampler cannot

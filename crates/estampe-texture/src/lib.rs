@@ -116,5 +116,5 @@ pub use unorm8::{store_unorm8, stored_unorm8_words};
 pub use upload::LevelData;
 pub use view::{
     Coordinates, Lod, PacketLod, PacketPlace, PacketRequest, SampledTexture, TapShifts, TexelView,
-    TextureCoordinates, shifted,
+    TextureCoordinates, TiledTexels, TiledWords, shifted,
 };

@@ -51,7 +51,7 @@ mod tests {
         let mut texels = ColorTexels::zeros(format, size).unwrap();
         let used = u32::MAX >> (32 - format.block_bytes().min(4) * 8);
         let mut state = width;
-        for word in texels.words.iter_mut() {
+        for word in texels.words_mut().iter_mut() {
             state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
             *word = (state ^ state >> 16) & used;
         }

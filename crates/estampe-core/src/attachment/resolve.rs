@@ -38,7 +38,7 @@ impl<'a> ResolveJob<'a> {
         let (format, count) = (from.format, from.size.samples as usize);
         let elements = JOB_PACKETS * LANES * texel_words(format);
         let samples = from.words.chunks(elements * count);
-        let pixels = into.words.chunks_mut(elements);
+        let pixels = into.words_mut().chunks_mut(elements);
         samples.zip(pixels).map(move |(samples, pixels)| Self {
             samples,
             pixels,

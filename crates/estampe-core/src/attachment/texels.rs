@@ -35,8 +35,9 @@ pub struct ColorTexels {
     pub(super) format: TextureFormat,
     pub(super) size: ImageSize,
     /// A texel of each sample is one, two or four [`words`](crate::layout::texel_words) of sixteen
-    /// lanes. RGBA8 has R in the low byte, BGRA8 B.
-    pub(crate) words: Lines<u32>,
+    /// lanes. RGBA8 has R in the low byte, BGRA8 B. Shared with who reads the image in this order;
+    /// drawing while somebody does draws into a copy.
+    pub(super) words: Arc<Lines<u32>>,
 }
 
 impl ColorTexels {
@@ -52,7 +53,7 @@ impl ColorTexels {
         Some(Self {
             format,
             size,
-            words: Lines::zeros(words)?,
+            words: Arc::new(Lines::zeros(words)?),
         })
     }
 
@@ -63,7 +64,7 @@ impl ColorTexels {
         Self {
             format,
             size,
-            words: Lines::default(),
+            words: Arc::default(),
         }
     }
 
@@ -85,7 +86,18 @@ impl ColorTexels {
     pub fn copy_from(&mut self, from: &Self) {
         debug_assert_eq!(from.format.with_srgb(false), self.format.with_srgb(false));
         debug_assert_eq!(from.size, self.size);
-        self.words.copy_from_slice(&from.words);
+        self.words_mut().copy_from_slice(&from.words);
+    }
+
+    /// The texels in storage order, to be changed.
+    pub(crate) fn words_mut(&mut self) -> &mut Lines<u32> {
+        Arc::make_mut(&mut self.words)
+    }
+
+    /// The texels in storage order; none of an image without memory.
+    #[must_use]
+    pub fn words(&self) -> &Arc<Lines<u32>> {
+        &self.words
     }
 
     /// The format of the texels.
@@ -160,6 +172,12 @@ impl DepthStencilTexels {
         debug_assert_eq!((from.format, from.size), (self.format, self.size));
         self.depths_mut().copy_from_slice(&from.depth);
         self.stencil.copy_from_slice(&from.stencil);
+    }
+
+    /// The depths in storage order; none of an image without depth or memory.
+    #[must_use]
+    pub fn depths(&self) -> &Arc<Lines<f32>> {
+        &self.depth
     }
 
     pub(crate) fn depth_format(&self) -> DepthFormat {

@@ -169,7 +169,7 @@ mod tests {
                     samples: 1,
                 };
                 let mut texels = ColorTexels::zeros(format, size).unwrap();
-                for (word, number) in texels.words.iter_mut().zip(0_u32..) {
+                for (word, number) in texels.words_mut().iter_mut().zip(0_u32..) {
                     *word = number.wrapping_mul(2_654_435_769);
                 }
                 let mut whole = vec![0; row_order_words(format, size)];

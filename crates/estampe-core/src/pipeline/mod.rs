@@ -17,7 +17,7 @@ use amplified::Amplified;
 use binding_limits::check_bindings;
 use color_target::ColorTarget;
 pub use declared_bindings::check_declared;
-use estampe_types::shader::{GeometryProgram, MAX_DISTANCES, StoppedBatches};
+use estampe_types::shader::{GeometryProgram, MAX_DISTANCES, StoppedBatches, TextureReads};
 use estampe_types::state::{
     BlendFactor, BlendState, ColorTargetState, DepthStencilState, LineState, LineStipple,
     LogicOperation, MultisampleState, PrimitiveState, VertexBufferLayout,
@@ -198,15 +198,17 @@ impl RenderPipeline {
         self.interface().stores
     }
 
-    /// True if a shader may read texels of the texture at this place other than to compare them:
-    /// see [`Program::reads_texels`].
+    /// How shaders may read the texture at this place: see [`Program::texture_reads`].
     #[must_use]
-    pub fn reads_texels(&self, group: u32, binding: u32) -> bool {
+    pub fn texture_reads(&self, group: u32, binding: u32) -> TextureReads {
         let descriptor = &self.inner.descriptor;
         let has_other_programs = descriptor.vertex_program.is_some()
             || descriptor.tessellation.is_some()
             || descriptor.geometry.is_some();
-        has_other_programs || descriptor.program.reads_texels(group, binding)
+        match has_other_programs {
+            true => TextureReads::ALL,
+            false => descriptor.program.texture_reads(group, binding),
+        }
     }
 
     pub(crate) fn program(&self) -> &dyn Program {

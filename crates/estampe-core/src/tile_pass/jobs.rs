@@ -86,12 +86,12 @@ impl<'a> TileJobs<'a> {
         };
         for (packets, color) in jobs.colors.iter_mut().zip(&mut target.colors) {
             let words = texel_words(color.format());
-            *packets = TilePackets::new(&mut color.words, elements * words);
+            *packets = TilePackets::new(color.words_mut(), elements * words);
         }
         for resolve in &mut target.resolves {
             let words = texel_words(resolve.into.format());
             let pixels = grid.tile_pixels() * words;
-            jobs.resolved[resolve.color] = TilePackets::new(&mut resolve.into.words, pixels);
+            jobs.resolved[resolve.color] = TilePackets::new(resolve.into.words_mut(), pixels);
         }
         for rows in target.rows.iter_mut().filter(|rows| rows.is_done) {
             let color = (rows.color, target.color_formats[rows.color]);
@@ -206,7 +206,7 @@ mod tests {
             samples: 1,
         };
         let mut stored = ColorTexels::zeros(TextureFormat::Rgba16Float, size).unwrap();
-        for (tile, words) in (0..).zip(stored.words.chunks_mut(64 * 64 * 2)) {
+        for (tile, words) in (0..).zip(stored.words_mut().chunks_mut(64 * 64 * 2)) {
             words.fill(tile);
         }
         let without = ColorTexels::without_memory(TextureFormat::Rgba8Unorm, size);

@@ -150,7 +150,7 @@ mod tests {
             samples: 1,
         };
         let mut stored = ColorTexels::zeros(TextureFormat::Rgba16Float, size).unwrap();
-        for (tile, words) in (0..).zip(stored.words.chunks_mut(64 * 64 * 2)) {
+        for (tile, words) in (0..).zip(stored.words_mut().chunks_mut(64 * 64 * 2)) {
             words.fill(tile);
         }
         let without = ColorTexels::without_memory(TextureFormat::Rgba8Unorm, size);

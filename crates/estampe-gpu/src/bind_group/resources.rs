@@ -2,22 +2,22 @@
 
 use super::{BindGroup, BindingResource};
 use crate::buffer::StoredBuffers;
-use crate::texture::{StoredTextures, TextureError, TextureView, sampled_texture};
+use crate::texture::{Image, StoredTextures, TextureError, TextureView, sampled_texture};
 use crate::{BindingType, BufferSlice, Context};
-use estampe_texture::BoundTexture;
+use estampe_texture::{BoundTexture, TiledTexels, TiledWords};
 use estampe_types::bindings::{BoundResource, BoundResources, OtherResource};
+use estampe_types::shader::TextureReads;
 use estampe_types::{ShadowMap, TextureFormat};
 use std::sync::Arc;
 
 impl BindGroup {
     /// The resources as they are now, as programs read them. What shaders store to is shared
-    /// through `textures` and `buffers`. `reads_texels` says of which bindings shaders read texels
-    /// other than to compare them.
+    /// through `textures` and `buffers`. `reads` says how shaders read the texture of a binding.
     pub(crate) fn resources(
         &self,
         context: &Context,
         (textures, buffers): (&mut StoredTextures, &StoredBuffers<'_>),
-        reads_texels: impl Fn(u32) -> bool,
+        reads: impl Fn(u32) -> TextureReads,
     ) -> Result<Arc<BoundResources>, TextureError> {
         let layout = &self.inner.layout;
         let entries = self.inner.entries.iter().map(|(binding, resource)| {
@@ -33,13 +33,7 @@ impl BindGroup {
                         BoundResource::StorageTexture(textures.get(context, view)?)
                     }
                     _ => {
-                        let level = context.level();
-                        let bound = match newest_depths(context, view)? {
-                            Some(depths) if !reads_texels(*binding) => {
-                                BoundTexture::of_depths(view.shape()?, depths, level)
-                            }
-                            depths => BoundTexture::new(view.texels(context)?, depths, level),
-                        };
+                        let bound = bound_texture(context, view, reads(*binding))?;
                         BoundResource::Other(OtherResource(Arc::new(bound)))
                     }
                 },
@@ -54,6 +48,31 @@ impl BindGroup {
         let entries: Result<Vec<_>, TextureError> = entries.collect();
         Ok(Arc::new(BoundResources { entries: entries? }))
     }
+}
+
+/// The texture of a view, in the order of storage that shaders need: in rows, unless they only
+/// compare what a pass has drawn, or load it at their own pixel.
+fn bound_texture(
+    context: &Context,
+    view: &TextureView,
+    reads: TextureReads,
+) -> Result<BoundTexture, TextureError> {
+    let level = context.level();
+    let depths = match reads.compares {
+        true => newest_depths(context, view)?,
+        false => None,
+    };
+    if !reads.others && (depths.is_some() || !reads.compares) {
+        let tiles = match reads.at_pixel {
+            true => newest_tiles(context, view),
+            false => None,
+        };
+        if tiles.is_some() || !reads.at_pixel {
+            let parts = (depths, tiles);
+            return Ok(BoundTexture::without_texels(view.shape()?, parts, level));
+        }
+    }
+    Ok(BoundTexture::new(view.texels(context)?, depths, level))
 }
 
 fn bound_buffer(
@@ -109,4 +128,24 @@ fn newest_depths(context: &Context, view: &TextureView) -> Result<Option<ShadowM
         return Ok(None);
     }
     contents.shadow_map(texture, context, key)
+}
+
+/// The texels of a view in the attachment's memory, if it is the newest; none at the scalar level,
+/// which loads them from rows.
+fn newest_tiles(context: &Context, view: &TextureView) -> Option<TiledTexels> {
+    let texture = view.texture();
+    let key = view.image_key(None)?;
+    if texture.sample_count() > 1 || context.level().is_scalar() {
+        return None;
+    }
+    let contents = texture.lock();
+    let words = match contents.tiles(key)? {
+        Image::Color(image) => TiledWords::Colors(Arc::clone(image.words())),
+        // Where rows are up to date, too, depths in them may be others.
+        Image::DepthStencil(image) => {
+            contents.newest_tiles(key)?;
+            TiledWords::Depths(Arc::clone(image.depths()))
+        }
+    };
+    TiledTexels::new(view.format(), view.size(), words)
 }

@@ -9,7 +9,9 @@ use crate::texture::{StoredTextures, Texture};
 use crate::{BindGroup, Device};
 use estampe_types::Bindings;
 use estampe_types::bindings::BoundResources;
-use estampe_types::shader::{ComputeProgram, ComputeStopped, WorkgroupOrder, Workgroups};
+use estampe_types::shader::{
+    ComputeProgram, ComputeStopped, TextureReads, WorkgroupOrder, Workgroups,
+};
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -40,7 +42,9 @@ fn run(device: &Device, dispatch: &Dispatch<'_>) -> Result<(), DispatchErrorKind
     let buffers = StoredBuffers::in_place(&groups)?;
     let mut resources: Vec<(usize, Arc<BoundResources>)> = Vec::new();
     for group in &groups {
-        let bound = group.resources(device.context(), (&mut textures, &buffers), |_| true);
+        let bound = group.resources(device.context(), (&mut textures, &buffers), |_| {
+            TextureReads::ALL
+        });
         let bound = bound.map_err(|error| DispatchErrorKind::Texture {
             group: group.name(),
             error,

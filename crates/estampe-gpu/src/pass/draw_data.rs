@@ -10,6 +10,7 @@ use crate::texture::StoredTextures;
 use crate::{BindGroup, BufferSlice, Context, RenderPipeline};
 use estampe_core::DrawNeeds;
 use estampe_types::bindings::BoundResources;
+use estampe_types::shader::TextureReads;
 use estampe_types::{Bindings, BufferData};
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -73,13 +74,16 @@ impl<'a> Groups<'a> {
     ) -> Result<Vec<Arc<BoundResources>>, PassErrorKind> {
         let groups = self.distinct.iter().zip(&self.uses);
         let resources = groups.map(|(group, uses)| {
-            let reads_texels = |binding| {
-                let mut uses = uses.iter();
-                uses.len() > MOST_USES
-                    || uses.any(|(pipeline, number)| pipeline.reads_texels(*number, binding))
+            let reads = |binding| {
+                if uses.len() > MOST_USES {
+                    return TextureReads::ALL;
+                }
+                let uses = uses.iter();
+                let reads = uses.map(|(pipeline, number)| pipeline.texture_reads(*number, binding));
+                reads.fold(TextureReads::default(), |all, reads| all | reads)
             };
             let stores = (&mut *textures, buffers);
-            let resources = group.resources(context, stores, reads_texels);
+            let resources = group.resources(context, stores, reads);
             resources.map_err(|error| PassErrorKind::Texture {
                 attachment: group.name(),
                 error,

@@ -143,7 +143,8 @@ impl TextureDescriptor<'_> {
 /// A pass reads what a texture holds when the pass begins. The texels are in tiles while passes
 /// render to them and in rows while shaders sample them; the first use in the other role converts
 /// those mip levels and layers that changed, on all threads. Of a texture that shaders have sampled
-/// before, passes store rows while they draw, and tiles only if a pass has loaded them.
+/// before, passes store rows while they draw, and tiles only if a pass has loaded them. Shaders
+/// that only compare depths, or load texels at their own pixel, read the tiles.
 #[derive(Clone)]
 pub struct Texture {
     inner: Arc<Inner>,

@@ -121,6 +121,11 @@ impl ShadowFilter {
         (filters, places)
     }
 
+    /// True if the texture at this position in the interface is compared.
+    pub(super) fn is_of(&self, texture: u32) -> bool {
+        self.at.texture[0] == texture
+    }
+
     /// The number of comparisons of a packet.
     pub(super) fn count(&self) -> usize {
         self.shifts.len()

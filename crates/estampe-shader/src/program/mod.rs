@@ -35,7 +35,7 @@ use batch::{Widths, with_fragments, with_vertices};
 use estampe_ir::interface::TextureSlot;
 use estampe_ir::tree::{Tree, passes};
 use estampe_simd::Level;
-use estampe_types::shader::{AlphaTest, AlphaTestRequest, StoppedBatches};
+use estampe_types::shader::{AlphaTest, AlphaTestRequest, StoppedBatches, TextureReads};
 use estampe_types::{
     BindGroupLayout, BindGroupLayoutEntry, Bindings, FragmentBatch, Interface, Program, SampleType,
     VertexBatch,
@@ -175,11 +175,10 @@ impl Program for TextProgram {
         Some(&self.stopped)
     }
 
-    fn reads_texels(&self, group: u32, binding: u32) -> bool {
+    fn texture_reads(&self, group: u32, binding: u32) -> TextureReads {
         let stages = std::iter::once(&self.vertex).chain(&self.fragment);
-        stages
-            .into_iter()
-            .any(|stage| stage.reads_texels(TextureSlot { group, binding }))
+        let reads = stages.map(|stage| stage.texture_reads(TextureSlot { group, binding }));
+        reads.fold(TextureReads::default(), |all, reads| all | reads)
     }
 
     fn alpha_test(&self, bindings: &Bindings, request: AlphaTestRequest) -> Option<AlphaTest> {

@@ -28,6 +28,7 @@ use estampe_ir::tree::{Node, Tree, passes};
 use estampe_ir::{Op, Value};
 use estampe_simd::{Level, Packet};
 use estampe_texture::TapShifts;
+use estampe_types::shader::TextureReads;
 use std::cell::Cell;
 use std::collections::HashMap;
 
@@ -239,11 +240,15 @@ impl Reads {
         self.of_read.len()
     }
 
-    /// True if one of them is of the texture at this position in the interface.
-    pub(super) fn are_of(&self, texture: u32) -> bool {
+    /// How they read the texture at this position in the interface.
+    pub(super) fn of_texture(&self, texture: u32) -> TextureReads {
         let groups = self.groups.iter().flat_map(|group| &group.textures);
         let filters = self.filters.iter().map(|filter| &filter.texture);
-        groups.chain(filters).any(|[of, _]| *of == texture) || self.loads.contains(&texture)
+        TextureReads {
+            compares: self.shadows.iter().any(|filter| filter.is_of(texture)),
+            at_pixel: self.loads.contains(&texture),
+            others: groups.chain(filters).any(|[of, _]| *of == texture),
+        }
     }
 
     /// True if all that a tree does, out of which these reads were taken, is to give the texels of

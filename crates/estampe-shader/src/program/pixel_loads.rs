@@ -15,7 +15,7 @@ use estampe_ir::op::{Binary, LevelOfDetail, TextureOp, TextureQuery, Unary};
 use estampe_ir::tree::{Node, Tree};
 use estampe_ir::{Op, Value};
 use estampe_simd::{LANES, Lanes, Level, Packet, SimdBase, dispatch, i32x16};
-use estampe_texture::TexelView;
+use estampe_texture::{TexelView, TextureBindings, TiledTexels};
 use std::collections::HashMap;
 
 /// More than any position in the window.
@@ -130,21 +130,37 @@ impl BoundTextures<'_> {
         positions: &[[Packet<f32>; 4]],
         texels: &mut [[Packet<f32>; 4]],
     ) {
-        let mut views = [None; MOST];
-        for (to, texture) in views.iter_mut().zip(textures) {
-            *to = self.loaded(*texture);
-        }
         let each = textures.len().clamp(1, MOST);
+        let (mut tiled, mut views) = ([None; MOST], [None; MOST]);
+        let mut are_all_viewed = true;
+        for ((tiled, view), texture) in tiled.iter_mut().zip(&mut views).zip(textures) {
+            let (group, binding) = self.slot_of(*texture);
+            *tiled = self.bindings.tiled_texels(group, binding);
+            if tiled.is_none() {
+                *view = self.loaded(*texture);
+                are_all_viewed &= view.is_some();
+            }
+        }
+        let (tiled, views) = (&tiled[..each], &views[..each]);
+        if tiled.iter().any(Option::is_some) {
+            TiledTexels::fetch_at_pixels(tiled, level, positions, texels);
+        }
+        if tiled.iter().all(Option::is_some) {
+            return;
+        }
         let batches = positions.chunks(TOGETHER);
         for (positions, texels) in batches.zip(texels.chunks_mut(TOGETHER * each)) {
-            let mut left = match all_of(&views[..each]) {
-                Some(all) => TexelView::fetch_at_pixels(&all[..each], level, positions, texels),
-                None => u32::MAX,
+            let mut left = match are_all_viewed {
+                true => TexelView::fetch_at_pixels(views, level, positions, texels),
+                // Shaders store to one of them.
+                false => u32::MAX,
             };
             let packets = positions.iter().zip(texels.chunks_mut(each));
             for ([x, y, ..], texels) in packets {
                 if left & 1 == 1 {
-                    for (texture, texels) in textures.iter().zip(texels) {
+                    let loads = textures.iter().zip(texels).zip(tiled);
+                    let of_views = loads.filter(|(_, tiled)| tiled.is_none());
+                    for ((texture, texels), _) in of_views {
                         dispatch!(level, s => self.load_at(s, *texture, [x, y], texels));
                     }
                 }
@@ -182,13 +198,4 @@ impl BoundTextures<'_> {
         texel.z.store_array(&mut b.0);
         texel.w.store_array(&mut a.0);
     }
-}
-
-/// The views, if all are there; those after them are the first one.
-fn all_of<'a>(views: &[Option<&'a TexelView>]) -> Option<[&'a TexelView; MOST]> {
-    let mut all = [(*views.first()?)?; MOST];
-    for (to, view) in all.iter_mut().zip(views) {
-        *to = (*view)?;
-    }
-    Some(all)
 }

@@ -15,6 +15,7 @@ use estampe_ir::op::TextureQuery;
 use estampe_ir::tree::Tree;
 use estampe_simd::Level;
 use estampe_types::Bindings;
+use estampe_types::shader::TextureReads;
 use std::cell::RefCell;
 use std::sync::OnceLock;
 
@@ -152,21 +153,27 @@ impl Stage {
         BoundTextures::new(bindings, textures, samplers)
     }
 
-    /// True if texels of a texture are read other than by comparisons without an offset.
-    pub(super) fn reads_texels(&self, slot: TextureSlot) -> bool {
-        let slots = self.interface().textures.iter();
-        let at = slots
-            .zip(0_u32..)
-            .find_map(|(one, at)| (*one == slot).then_some(at));
-        let is_read = |op: &Op| match op {
-            Op::Texture(op) if Some(op.texture) == at => {
-                let is_compared = op.query == TextureQuery::SampleCompare && op.offset == [0; 3];
-                !is_compared && !op.query.is_of_shape()
-            }
-            _ => false,
+    /// How a texture is read.
+    pub(super) fn texture_reads(&self, slot: TextureSlot) -> TextureReads {
+        let mut slots = self.interface().textures.iter();
+        let Some(at) = slots.position(|one| *one == slot) else {
+            return TextureReads::default();
         };
-        let mut ops = self.kernel.blocks.iter().flat_map(|block| &block.ops);
-        ops.any(|(op, _)| is_read(op)) || at.is_some_and(|at| self.reads.are_of(at))
+        let at = u32::try_from(at).unwrap_or(u32::MAX);
+        let of_op = |op: &Op| match op {
+            Op::Texture(op) if op.texture == at && !op.query.is_of_shape() => {
+                let compares = op.query == TextureQuery::SampleCompare && op.offset == [0; 3];
+                TextureReads {
+                    compares,
+                    others: !compares,
+                    ..TextureReads::default()
+                }
+            }
+            _ => TextureReads::default(),
+        };
+        let ops = self.kernel.blocks.iter().flat_map(|block| &block.ops);
+        ops.map(|(op, _)| of_op(op))
+            .fold(self.reads.of_texture(at), |all, reads| all | reads)
     }
 
     /// Runs so many packets. Inlined, because pairs of arguments in memory are read before they

@@ -59,19 +59,15 @@ impl BoundTextures<'_> {
         let (operands, _) = accesses.all();
         let is_block = matches!(operands, [x, y, ..] if begins_block(x, y));
         let ops = accesses.ops;
-        let Some(first) = ops
-            .first()
-            .filter(|_| is_block)
-            .and_then(|op| self.loaded(op.texture))
-        else {
+        if !is_block {
             return false;
-        };
-        let mut views = [first; MOST];
+        }
+        let mut views = [None; MOST];
         for (to, op) in views.iter_mut().zip(ops) {
-            let Some(view) = self.loaded(op.texture) else {
+            *to = self.loaded(op.texture);
+            if to.is_none() {
                 return false;
-            };
-            *to = view;
+            }
         }
         let level = accesses.level();
         let (operands, results) = accesses.all();

@@ -9,6 +9,7 @@ use estampe_texture::{
     AddressMode, BoundTexture, SamplerDescriptor, ShadowMap, TexelView, texture_from_depth,
 };
 use estampe_types::bindings::{BoundGroup, BoundResource, BoundResources, OtherResource};
+use estampe_types::shader::TextureReads;
 use estampe_types::state::CompareFunction;
 use estampe_types::{Bindings, BufferData, FragmentBatch, Program};
 use std::sync::Arc;
@@ -156,9 +157,14 @@ fn comparisons_have_the_same_bits_before_and_in_the_code() {
 #[test]
 fn depths_that_are_only_compared_before_are_not_read() {
     let shader = "return vec4f(textureSampleCompareLevel(depths, compared, in.uv, 0.5));";
-    assert!(!program(shader).reads_texels(0, 8), "in the code");
+    let compares = TextureReads {
+        compares: true,
+        ..TextureReads::default()
+    };
+    assert_eq!(program(shader).texture_reads(0, 8), compares, "in the code");
     let shader =
         "return vec4f(textureSampleCompareLevel(depths, compared, in.uv, in.direction.z));";
     assert_eq!(program(shader).nondependent_reads(), 1);
-    assert!(!program(shader).reads_texels(0, 8));
+    assert_eq!(program(shader).texture_reads(0, 8), compares);
+    assert_eq!(program(shader).texture_reads(0, 1), TextureReads::default());
 }

@@ -136,6 +136,7 @@ fn colors(program: &TextProgram, (level, bindings): (Level, &Bindings)) -> Vec<P
 #[test]
 fn loads_have_the_same_bits_before_and_in_the_code() {
     let textures = Textures::new(samplers()[0]);
+    let mut in_tiles_somewhere = false;
     for (count, statements) in LOADS {
         let before = program("vec2i(position.xy)", statements);
         let in_code = program("vec2i(position.xy * one)", statements);
@@ -149,8 +150,26 @@ fn loads_have_the_same_bits_before_and_in_the_code() {
             let name = level.name();
             let expected = colors(&in_code, context);
             assert_eq!(colors(&before, context), expected, "{name} {statements}");
+            // All of them in tiles, or one of several.
+            let tiles: &[&[u32]] = match level.is_scalar() {
+                true => &[],
+                false => &[&[1, 8, 10, 3], &[10], &[8]],
+            };
+            for in_tiles in tiles {
+                let at_pixel = |at: &&u32| {
+                    let reads = before.texture_reads(0, **at);
+                    reads.at_pixel && !reads.others
+                };
+                let in_tiles: Vec<u32> = in_tiles.iter().filter(at_pixel).copied().collect();
+                in_tiles_somewhere |= !in_tiles.is_empty();
+                let numbers = [0.03, -0.02, 1.5, 1e30];
+                let bindings = textures.bindings_in_tiles(level, numbers, &in_tiles);
+                let found = colors(&before, (level, &bindings));
+                assert_eq!(found, expected, "{name} {statements} {in_tiles:?}");
+            }
         }
     }
+    assert!(in_tiles_somewhere || Level::best().is_scalar());
 }
 
 /// Where nothing is bound, loads give zeros.

@@ -5,10 +5,11 @@ use super::program;
 use estampe_simd::{LANES, Level, Packet};
 use estampe_texture::{
     BoundTexture, Coordinates, FilterMode, LevelData, Lod, MipGeneration, SampledTexture,
-    SamplerDescriptor, TexelDescriptor, TexelView, TexelViewDescriptor, TextureDimension,
-    TextureFormat, ViewDimension,
+    SamplerDescriptor, TexelData, TexelDescriptor, TexelView, TexelViewDescriptor,
+    TextureDimension, TextureFormat, TiledTexels, TiledWords, ViewDimension,
 };
 use estampe_types::bindings::{BoundGroup, BoundResource, BoundResources, OtherResource};
+use estampe_types::morton::spread;
 use estampe_types::state::CompareFunction;
 use estampe_types::{Bindings, BufferData, FragmentBatch, Limits, Program, Vec2, Vec3, Vec4};
 use std::sync::Arc;
@@ -79,6 +80,30 @@ fn depths(random: &mut fastrand::Rng) -> TexelView {
     TexelView::of(texture.expect("it is small")).expect("it has a level")
 }
 
+/// The finest level of a texture in storage order.
+fn tiles_of(texture: &TexelData) -> TiledTexels {
+    let (level, words) = (texture.levels[0], texture.words_per_texel());
+    assert!(level.width.max(level.height) <= 64, "one block");
+    let mut tiled = vec![0x1234_5678; 4096 * words];
+    for (y, x) in (0..level.height).flat_map(|y| (0..level.width).map(move |x| (y, x))) {
+        let pixel = (spread(x) | spread(y) << 1) as usize;
+        let texel = (y * level.width + x) as usize * words;
+        for word in 0..words {
+            let at = (pixel / LANES * words + word) * LANES + pixel % LANES;
+            tiled[at] = texture.texels[texel + word];
+        }
+    }
+    let words = match texture.format.has_depth() {
+        true => {
+            let depths: Vec<f32> = tiled.into_iter().map(f32::from_bits).collect();
+            TiledWords::Depths(Arc::new(depths.into()))
+        }
+        false => TiledWords::Colors(Arc::new(tiled.into())),
+    };
+    let tiles = TiledTexels::new(texture.format, [level.width, level.height], words);
+    tiles.expect("a format that is read in tiles")
+}
+
 /// Half floats, which filters sample in blocks.
 fn halves(random: &mut fastrand::Rng) -> TexelView {
     let descriptor = TexelDescriptor::new_2d(64, 32, TextureFormat::Rgba16Float);
@@ -123,9 +148,31 @@ impl Textures {
 
     /// The bindings, with `numbers` as the uniform.
     pub(super) fn bindings_with(&self, level: Level, numbers: [f32; 4]) -> Bindings {
+        self.bindings_in_tiles(level, numbers, &[])
+    }
+
+    /// The same, of which the textures at some places are bound in tiles.
+    pub(super) fn bindings_in_tiles(
+        &self,
+        level: Level,
+        numbers: [f32; 4],
+        in_tiles: &[u32],
+    ) -> Bindings {
         let bound = |(binding, view): &(u32, TexelView)| {
-            let texture = Arc::new(BoundTexture::new(view.clone(), None, level));
-            (*binding, BoundResource::Other(OtherResource(texture)))
+            let texture = match in_tiles.contains(binding) {
+                true => {
+                    let mut shape = (**view.texture()).clone();
+                    let _ = shape.take_texels();
+                    let shape = TexelView::of(shape).expect("it has a level");
+                    let tiles = Some(tiles_of(view.texture()));
+                    BoundTexture::without_texels(shape, (None, tiles), level)
+                }
+                false => BoundTexture::new(view.clone(), None, level),
+            };
+            (
+                *binding,
+                BoundResource::Other(OtherResource(Arc::new(texture))),
+            )
         };
         let mut entries: Vec<_> = self.views.iter().map(bound).collect();
         entries.push((0, BoundResource::Sampler(self.sampler)));

@@ -13,6 +13,7 @@ mod immediates_compute;
 mod integer_targets;
 mod peers;
 mod picture;
+mod pixel_loads;
 mod shadow_maps;
 mod spirv;
 mod stored_colors;

@@ -93,10 +93,10 @@ fn depths_that_are_only_compared_need_no_rows() {
         let descriptor = TextureDescriptor::new_2d(SIZE[0], SIZE[1], TextureFormat::Depth32Float);
         let depths = device.create_texture(&descriptor).expect("a small texture");
         let slope = slope(&device);
-        let compared = |text_of: &str, sampler: SamplerDescriptor, reads_texels: bool| {
+        let compared = |text_of: &str, sampler: SamplerDescriptor, others: bool| {
             let module = module(&device, ShaderSource::Wgsl(&text(text_of)));
             let pipeline = pipeline(&device, &module);
-            assert_eq!(pipeline.reads_texels(0, 0), reads_texels, "{text_of}");
+            assert_eq!(pipeline.texture_reads(0, 0).others, others, "{text_of}");
             let sampler = device.create_sampler(&sampler).expect("a sampler");
             let group = device.create_bind_group(&BindGroupDescriptor {
                 label: None,

@@ -13,11 +13,12 @@ use estampe_types::morton::{compact, spread};
 use estampe_types::{Real, ViewDimension};
 
 impl TexelView {
-    /// Fetches the texels of several textures at the same places (x, y) of a level. `false` unless
-    /// all are two-dimensional ones of one size, of half floats, of four unorm bytes or of one
-    /// float, and the texels a block inside the level; what is stored then means nothing.
+    /// Fetches the texels of several textures at the same places (x, y) of a level; those without a
+    /// view are left as they are. `false` unless all are two-dimensional ones of one size, of half
+    /// floats, of four unorm bytes or of one float, and the texels a block inside the level; what
+    /// is stored then means nothing.
     pub fn fetch_blocks(
-        views: &[&Self],
+        views: &[Option<&Self>],
         level: Level,
         [x, y, mips]: [&Packet<i32>; 3],
         texels: &mut [Answers],
@@ -38,14 +39,14 @@ impl TexelView {
 
     /// Fetches the texels of several textures at the pixels of packets of fragments, as
     /// [`fetch_blocks`](Self::fetch_blocks) does in the finest level: x, y, z and 1/w of each
-    /// packet are its position in the window, and of each there are as many texels as textures.
-    /// Returns the packets that were not fetched, of which nothing is stored that counts: bit `i`
-    /// is packet `i`.
+    /// packet are its position in the window, and of each there are as many texels as textures, of
+    /// which those without a view are left as they are. Returns the packets that were not fetched,
+    /// of which nothing is stored that counts: bit `i` is packet `i`.
     ///
     /// # Panics
     /// If there are more packets than bits.
     pub fn fetch_at_pixels(
-        views: &[&Self],
+        views: &[Option<&Self>],
         level: Level,
         positions: &[[Packet<f32>; 4]],
         texels: &mut [Answers],
@@ -149,8 +150,8 @@ impl TexelView {
 
 /// The sides of a level of views whose blocks can be fetched together: they are those of all.
 #[inline(always)]
-fn sides_of(views: &[&TexelView], mip: usize) -> Option<[i32; 3]> {
-    let mut all = views.iter();
+fn sides_of(views: &[Option<&TexelView>], mip: usize) -> Option<[i32; 3]> {
+    let mut all = views.iter().flatten();
     let of = |view: &TexelView| {
         let plane = view.planes.get(mip)?;
         view.has_blocks().then_some(plane.sides)
@@ -164,7 +165,7 @@ fn sides_of(views: &[&TexelView], mip: usize) -> Option<[i32; 3]> {
 #[inline(always)]
 fn fetch_block<S: SimdLanes>(
     s: S,
-    (views, mip, sides): (&[&TexelView], usize, [i32; 3]),
+    (views, mip, sides): (&[Option<&TexelView>], usize, [i32; 3]),
     (first, lanes): ([i32; 2], [i32x16<S>; 2]),
     ahead: u32,
     texels: &mut [Answers],
@@ -174,6 +175,9 @@ fn fetch_block<S: SimdLanes>(
     };
     let ahead = blocks_ahead(first, ahead);
     for (view, texels) in views.iter().zip(texels) {
+        let Some(view) = view else {
+            continue;
+        };
         let plane = &view.planes[mip];
         let Some([r, g, b, a]) = view.block_at(s, plane, at) else {
             return false;

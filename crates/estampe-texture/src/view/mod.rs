@@ -27,7 +27,8 @@
 //!   or a cube's edge, or with an offset).
 //!
 //! Gathers (`gather.rs`) are lane by lane as well; so are fetches (`fetch.rs`) that their packet
-//! code (`packet_fetch.rs`, and `blocks.rs` for rows of neighbours) cannot do.
+//! code (`packet_fetch.rs`, and `blocks.rs` for rows of neighbours) cannot do. What a pass reads of
+//! another one at its own pixels alone, it loads where it is stored (`tiled_texels.rs`).
 
 mod axis;
 mod blocks;
@@ -46,6 +47,7 @@ mod request_functions;
 mod sample;
 mod sampled_texture;
 mod shader_functions;
+mod tiled_texels;
 
 pub(crate) use coordinates::{Answers, answer, by_sixteen, load, packed, packet, packet_of_ints};
 pub use coordinates::{Coordinates, Lod, TextureCoordinates};
@@ -53,3 +55,4 @@ pub use packet::TapShifts;
 pub use packet_request::{PacketLod, PacketPlace, PacketRequest, shifted};
 pub use plane::TexelView;
 pub use sampled_texture::SampledTexture;
+pub use tiled_texels::{TiledTexels, TiledWords};

@@ -190,7 +190,7 @@ impl PacketFetch<'_> {
 
 /// A channel, with 0 in the lanes of a mask.
 #[inline(always)]
-fn zero_where<S: SimdLanes>(mask: mask32x16<S>, channel: f32x16<S>) -> Packet<f32> {
+pub(super) fn zero_where<S: SimdLanes>(mask: mask32x16<S>, channel: f32x16<S>) -> Packet<f32> {
     let zero = Int::splat(channel.bitcast::<i32x16<S>>(), 0);
     let bits: i32x16<S> = Int::select(mask, zero, channel.bitcast());
     let channel: f32x16<S> = bits.bitcast();

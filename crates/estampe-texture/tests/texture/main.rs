@@ -20,6 +20,7 @@ mod requests;
 mod several;
 mod squares;
 mod taps;
+mod tiled_texels;
 mod unorm8;
 mod values;
 mod views;

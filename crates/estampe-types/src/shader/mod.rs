@@ -20,6 +20,7 @@ mod scalar;
 mod shader_macro;
 mod stopped;
 mod structs;
+mod texture_reads;
 mod varyings;
 mod vertex;
 
@@ -43,6 +44,7 @@ pub use fragment::{FragmentBatch, FragmentIn, FragmentOut};
 pub use gradient::WithGradient;
 pub use interface::{DepthOutput, Interface, Interpolation, Sampling};
 pub use stopped::StoppedBatches;
+pub use texture_reads::TextureReads;
 pub use varyings::{Attributes, Centroid, Flat, NoPerspective, PerSample, Sink, Source, Varyings};
 pub use vertex::{MAX_DISTANCES, VertexBatch, VertexIn, VertexOut};
 
@@ -226,11 +228,11 @@ pub trait Program: Send + Sync + std::fmt::Debug {
     fn stopped_batches(&self) -> Option<&StoppedBatches> {
         None
     }
-    /// True if a shader may read texels of the texture at this place other than to compare them
-    /// with a reference, as a shadow map is read. If none does, depths that a pass has just drawn
-    /// need not be brought into rows. Shaders in Rust do not say.
-    fn reads_texels(&self, _group: u32, _binding: u32) -> bool {
-        true
+    /// How shaders may read the texture at this place. What a pass has just drawn need not be
+    /// brought into rows if they only compare it, or load it at their own pixel. Shaders in Rust do
+    /// not say.
+    fn texture_reads(&self, _group: u32, _binding: u32) -> TextureReads {
+        TextureReads::ALL
     }
     /// What decides alone whether a fragment has any effect, if that is the alpha of a texture.
     /// Fragments that fail it are not shaded. Shaders in Rust have none.

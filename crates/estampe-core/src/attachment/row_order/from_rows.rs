@@ -17,7 +17,7 @@ impl ColorTexels {
         debug_assert_eq!(rows.len(), row_order_words(self.format, self.size));
         let (format, size) = (self.format, self.size);
         let row = row_of_blocks(size);
-        let rows_of_blocks = self.words.chunks_exact_mut(row * texel_words(format));
+        let rows_of_blocks = self.words_mut().chunks_exact_mut(row * texel_words(format));
         (0..)
             .zip(rows_of_blocks)
             .map(move |(y, words)| FromRowsJob {
