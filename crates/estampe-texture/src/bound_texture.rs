@@ -117,6 +117,7 @@ impl BoundTexture {
         let made = SampledTexture::new(view, sampler)
             .ok()?
             .at_level(self.level);
+        made.make_squares();
         Some(match &self.depths {
             Some(depths) => made.with_depths(depths.clone()),
             None => made,
@@ -128,6 +129,9 @@ impl Drop for BoundTexture {
     /// Drops the list entry by entry, however long it is.
     fn drop(&mut self) {
         let mut next = self.first.take();
+        if next.is_some() {
+            self.view.texture().squares.note_sampled();
+        }
         while let Some(mut entry) = next {
             next = entry.next.take();
         }

@@ -95,6 +95,7 @@ fn texture(format: TextureFormat, levels: Vec<MipLevel>, texels: Arc<Lines<u32>>
         levels,
         is_opaque: is_opaque(&texels),
         alpha_maps: Arc::default(),
+        squares: Arc::default(),
         texels,
         shape: TextureShape::default(),
     }

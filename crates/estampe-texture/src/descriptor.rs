@@ -88,6 +88,7 @@ impl TexelDescriptor {
             texels: Arc::default(),
             is_opaque: false,
             alpha_maps: Arc::default(),
+            squares: Arc::default(),
             shape: self.shape(),
         };
         let count = self.mip_level_count as usize;
@@ -153,6 +154,7 @@ impl TexelDescriptor {
             texels: Arc::default(),
             is_opaque: false,
             alpha_maps: Arc::default(),
+            squares: Arc::default(),
             shape: self.shape(),
         }
     }
@@ -243,6 +245,7 @@ impl TexelDescriptor {
             texels: Arc::default(),
             is_opaque: false,
             alpha_maps: Arc::default(),
+            squares: Arc::default(),
             shape: self.shape(),
         };
         texture.stored_format().block_bytes().div_ceil(4)

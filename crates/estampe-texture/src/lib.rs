@@ -69,6 +69,7 @@ mod alpha_map;
 mod bindings;
 mod blocks;
 mod bound_texture;
+mod byte_squares;
 mod compare;
 mod compare_shifted;
 mod create;

@@ -61,8 +61,9 @@ pub use shader::{
 };
 pub use storage_buffer::StorageBuffer;
 pub use texture::{
-    AddressMode, BorderColor, FilterMode, MipLevel, SamplerDescriptor, ShadowMap, StorageTexture,
-    TexelData, TexelViewDescriptor, TextureAspect, TextureDimension, TextureShape, ViewDimension,
+    AddressMode, BorderColor, ByteSquares, FilterMode, MipLevel, SamplerDescriptor, ShadowMap,
+    StorageTexture, TexelData, TexelViewDescriptor, TextureAspect, TextureDimension, TextureShape,
+    ViewDimension,
 };
 pub use vector::{Vec2, Vec3, Vec4, vec2, vec3, vec4};
 

@@ -21,6 +21,7 @@ pub fn texture(plain: &PlainTexture, format: TextureFormat, decode: BlockDecoder
         texels: Arc::default(),
         is_opaque: false,
         alpha_maps: Arc::default(),
+        squares: Arc::default(),
         shape: TextureShape {
             dimension: plain.dimension,
             depth_or_layers: plain.size[2],

@@ -1,6 +1,7 @@
 //! Shaders as text on the objects of the device: drawing and compute.
 
 mod alpha_tests;
+mod byte_squares;
 mod clamped_sampling;
 mod compute;
 mod contraction;

@@ -59,6 +59,11 @@ impl PacketFormat {
         matches!(self.kind(), RGBA8 | RGBA8_SRGB | R8)
     }
 
+    /// Returns true if texels are one unorm byte.
+    pub(crate) fn is_one_byte(self) -> bool {
+        self.kind() == R8
+    }
+
     /// Returns true if texels are words of four unorm bytes, the last of which is alpha.
     pub(crate) fn is_of_four_bytes(self) -> bool {
         matches!(self.kind(), RGBA8 | RGBA8_SRGB)
@@ -195,6 +200,21 @@ pub(super) fn red_mean<S: Lanes>(
     let byte = |word: i32x16<S>| number(bits(s, word.bitcast(), 8));
     let ([a, b], [c, d]) = (corners.upper, corners.lower);
     let [a, b, c, d] = [byte(a), byte(b), byte(c), byte(d)];
+    let upper = a + (b - a) * x;
+    let lower = c + (d - c) * x;
+    upper + (lower - upper) * y
+}
+
+/// The weighted mean of the four bytes of a square, in units.
+#[inline(always)]
+pub(super) fn mean_of_square<S: Lanes>(
+    s: S,
+    word: u32x16<S>,
+    x: f32x16<S>,
+    y: f32x16<S>,
+) -> f32x16<S> {
+    let [a, b] = [number(bits(s, word, 8)), number(bits(s, word >> 8, 8))];
+    let [c, d] = [number(bits(s, word >> 16, 8)), number(word >> 24)];
     let upper = a + (b - a) * x;
     let lower = c + (d - c) * x;
     upper + (lower - upper) * y

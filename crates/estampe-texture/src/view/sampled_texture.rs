@@ -29,6 +29,8 @@ pub struct SampledTexture {
     /// The mip levels, if view and sampler are those of `packet/bytes.rs`: as for the common case,
     /// and anisotropic filtering, of a format of bytes.
     pub(crate) level_table: Option<Arc<LevelTable>>,
+    /// True if packets read [squares](estampe_types::ByteSquares) where they are made.
+    pub(crate) reads_squares: bool,
     /// True if the level of detail is of no effect: one mip level, and the same filter for
     /// magnification and minification.
     pub(crate) ignores_lod: bool,
@@ -61,6 +63,10 @@ impl SampledTexture {
         Ok(Self {
             packets,
             is_simple: is_linear && sampler.max_anisotropy <= 1,
+            reads_squares: level_table.is_some()
+                && sampler.max_anisotropy <= 1
+                && !view.is_cube()
+                && packets.is_some_and(PacketFormat::is_one_byte),
             level_table: level_table.map(Arc::new),
             ignores_lod: view.level_count() == 1
                 && sampler.mag_filter == sampler.min_filter

@@ -202,6 +202,7 @@ fn a_texture_put_together_by_hand_cannot_harm() {
             texels: std::sync::Arc::new(estampe_types::Lines::from(texels)),
             is_opaque: false,
             alpha_maps: std::sync::Arc::default(),
+            squares: std::sync::Arc::default(),
             shape: estampe_types::TextureShape::default(),
         });
         for mut sampler in samplers() {

@@ -4,9 +4,9 @@
 use super::Random;
 use estampe_simd::{LANES, Level, Packet};
 use estampe_texture::{
-    AddressMode, FilterMode, LevelData, Limits, MipGeneration, PacketLod, PacketRequest,
-    SampledTexture, SamplerDescriptor, TexelDescriptor, TexelView, TexelViewDescriptor,
-    TextureFormat, ViewDimension,
+    AddressMode, BoundTexture, FilterMode, LevelData, Limits, MipGeneration, PacketLod,
+    PacketRequest, SampledTexture, SamplerDescriptor, TexelDescriptor, TexelView,
+    TexelViewDescriptor, TextureFormat, ViewDimension,
 };
 
 type Colors = [Packet<f32>; 4];
@@ -183,6 +183,14 @@ fn place_on_cube(random: &mut Random) -> [f32; 3] {
     at
 }
 
+/// A texture that a pass before has sampled: squares of texels of one byte are made.
+pub(super) fn sampled_again(view: &TexelView, sampler: SamplerDescriptor) -> SampledTexture {
+    let bound = || BoundTexture::new(view.clone(), None, Level::best());
+    bound().sampled(&sampler).expect("valid");
+    let again = bound();
+    again.sampled(&sampler).expect("valid").clone()
+}
+
 /// The colours of sixteen lanes, each quad sampled alone, which packet code does not do.
 fn by_quads(texture: &SampledTexture, asked: &Asked) -> Colors {
     let mut colors = Colors::default();
@@ -216,13 +224,17 @@ fn packets_are_sampled_as_their_quads() {
         let is_cube = matches!(dimension, V::Cube | V::CubeArray);
         let [mut sampled, mut alone] = [0; 2];
         for format in FORMATS {
-            let view = view(dimension, size, format);
+            let views = [(); 2].map(|()| view(dimension, size, format));
             for sampler in samplers() {
-                let texture = SampledTexture::new(view.clone(), sampler).expect("valid");
+                let texture = SampledTexture::new(views[0].clone(), sampler).expect("valid");
                 assert!(texture.common().is_none());
-                for _ in 0..60 {
+                let again = sampled_again(&views[1], sampler);
+                let has_squares = again.view().texture().squares.get().is_some();
+                assert_eq!(has_squares, format == TextureFormat::R8Unorm && !is_cube);
+                for number in 0..60 {
                     let asked = Asked::random(random, is_cube);
                     let expected = by_quads(&texture, &asked);
+                    let texture = if number % 2 == 0 { &texture } else { &again };
                     for level in Level::all_available() {
                         let texture = texture.clone().at_level(level);
                         let mut colors = [Packet([7.0; LANES]); 4];
@@ -270,8 +282,11 @@ fn requests_are_sampled_together_as_alone() {
         .flat_map(|view| FORMATS.map(|format| (view, format)))
     {
         let view = view(dimension, size, format);
-        for sampler in samplers() {
-            let texture = SampledTexture::new(view.clone(), sampler).expect("valid");
+        for (number, sampler) in samplers().into_iter().enumerate() {
+            let texture = match number % 2 {
+                0 => SampledTexture::new(view.clone(), sampler).expect("valid"),
+                _ => sampled_again(&view, sampler),
+            };
             let asked: Vec<_> = (0..21)
                 .map(|_| Asked::random(random, dimension == V::Cube))
                 .collect();

@@ -5,6 +5,7 @@ mod alpha_maps;
 mod bindings;
 mod bits;
 mod blocks;
+mod byte_squares;
 mod bytes;
 mod codes;
 mod comparisons;

@@ -159,6 +159,7 @@ fn views_of_textures_put_together_by_hand_cannot_harm() {
             texels: std::sync::Arc::new(vec![0x3F80_0000; random.bits() as usize % 50].into()),
             is_opaque: true,
             alpha_maps: std::sync::Arc::default(),
+            squares: std::sync::Arc::default(),
             shape: estampe_texture::TextureShape {
                 dimension: dimension[random.bits() as usize % 3],
                 depth_or_layers: [0, 1, 6, 12, 1 << 14, u32::MAX][random.bits() as usize % 6],

@@ -1,10 +1,12 @@
 //! Textures as plain data, their views and sampler state. `estampe-texture` samples them.
 
+mod byte_squares;
 mod sampler;
 mod shape;
 mod storage;
 mod view;
 
+pub use byte_squares::ByteSquares;
 pub use sampler::{AddressMode, BorderColor, FilterMode, SamplerDescriptor};
 pub use shape::{TextureDimension, TextureShape};
 pub use storage::StorageTexture;
@@ -42,6 +44,8 @@ pub struct TexelData {
     pub shape: TextureShape,
     /// Where alpha may pass tests: what was found of these texels. Other texels need new maps.
     pub alpha_maps: Arc<AlphaMaps>,
+    /// The squares of texels of one byte, once they are made. Other texels need new ones.
+    pub squares: Arc<ByteSquares>,
 }
 
 impl TexelData {
@@ -49,6 +53,7 @@ impl TexelData {
     pub fn take_texels(&mut self) -> Arc<Lines<u32>> {
         static NONE: LazyLock<Arc<Lines<u32>>> = LazyLock::new(Arc::default);
         self.alpha_maps = Arc::default();
+        self.squares = Arc::default();
         std::mem::replace(&mut self.texels, Arc::clone(&NONE))
     }
 }

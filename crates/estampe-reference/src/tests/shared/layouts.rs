@@ -89,6 +89,7 @@ fn textures_are_stored_as_their_documentation_says() {
         texels: Arc::default(),
         is_opaque: false,
         alpha_maps: Arc::default(),
+        squares: Arc::default(),
         shape: TextureShape::default(),
     };
     use TextureFormat as F;

@@ -32,6 +32,7 @@ fn texture(
         texels: Arc::new(words.collect::<Vec<u32>>().into()),
         is_opaque: false,
         alpha_maps: Arc::default(),
+        squares: Arc::default(),
         shape: estampe_types::TextureShape::default(),
     };
     ReferenceTexture::new(Arc::new(texture), sampler)

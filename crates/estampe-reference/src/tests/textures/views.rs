@@ -51,6 +51,7 @@ fn view(
         texels: std::sync::Arc::new(texels.into()),
         is_opaque: false,
         alpha_maps: Arc::default(),
+        squares: Arc::default(),
         levels: levels.clone(),
     };
     ReferenceView {

@@ -3,7 +3,8 @@
 //!
 //! If all lanes are in the same mip level or between the same two, and all texels are inside, they
 //! are loaded as squares (`inside.rs`); in other packets each lane has its own level and texels
-//! (`each_level.rs`). Colours are in the units of [`texel`](crate::texel) until the end. These are
+//! (`each_level.rs`). Where the [squares](estampe_types::ByteSquares) of texels of one byte are
+//! made, they serve all packets. Colours are in the units of [`texel`](crate::texel) until the end. These are
 //! the units of the scalar code, times a power of two, so the bits are the same.
 
 use super::places::Spots;
@@ -60,6 +61,14 @@ impl Packet<'_> {
             self.mixture(s, self.footprints(at).lod)
         };
         let spots = self.spots(at);
+        if KIND == R8
+            && self.of.reads_squares
+            && let Some(squares) = self.of.view.texture.squares.get()
+        {
+            let mean = self.mean_of_squares(s, (&spots, squares), (table, (level, fraction)));
+            store::<_, KIND>(self, Vec4::repeat(mean), answers);
+            return Some(0);
+        }
         if let Some(color) = self.color_inside::<S, KIND>(s, &spots, level, fraction) {
             store::<_, KIND>(self, color, answers);
             return Some(0);

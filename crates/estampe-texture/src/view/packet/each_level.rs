@@ -18,8 +18,9 @@ use super::face::Face;
 use super::places::Spots;
 use crate::filter::mix_colors;
 use crate::texel::Corners;
+use crate::view::packet_texel::mean_of_square;
 use crate::view::plane::Plane;
-use crate::wrap::tile_lanes;
+use crate::wrap::{Place, place_by_lane, tile_lanes};
 use estampe_simd::{
     Bytes, Lanes as SimdLanes, Select, SimdBase, f32x16, i32x16, mask32x16, u32x16,
 };
@@ -59,6 +60,13 @@ struct OwnLevel<S: SimdLanes> {
     width: i32x16<S>,
     height: i32x16<S>,
     begin: i32x16<S>,
+}
+
+/// The index of the square of each lane, and the position between its texels' centres.
+struct OfSquare<S: SimdLanes> {
+    texel: i32x16<S>,
+    x: f32x16<S>,
+    y: f32x16<S>,
 }
 
 /// The indices of the four texels of each lane, and the position between their centres.
@@ -131,6 +139,55 @@ impl Packet<'_> {
             },
             x,
             y,
+        }
+    }
+
+    /// Samples a packet of texels of one byte, by their squares, as [`each_level`](Self::each_level)
+    /// does.
+    #[inline(always)]
+    pub(super) fn mean_of_squares<S: SimdLanes>(
+        &self,
+        s: S,
+        (spots, squares): (&Spots<f32x16<S>>, &[u32]),
+        (table, (level, fraction)): (&LevelTable, (f32x16<S>, f32x16<S>)),
+    ) -> f32x16<S> {
+        let level = level.to_int_within_range();
+        let mut place = self.place_of_square(spots, &self.own_level(s, table, level));
+        let word: u32x16<S> = s.gather(squares, place.texel.bitcast());
+        let mut mean = mean_of_square(s, word, place.x, place.y);
+        if f32x16::any(fraction.gt(fraction.splat(0.0))) {
+            let next = level + Int::splat(level, 1);
+            place = self.place_of_square(spots, &self.own_level(s, table, next));
+            let word: u32x16<S> = s.gather(squares, place.texel.bitcast());
+            let coarse = mean_of_square(s, word, place.x, place.y);
+            mean = mix_colors(Vec4::repeat(mean), Vec4::repeat(coarse), fraction).x;
+        }
+        mean
+    }
+
+    /// Where each lane is in its level.
+    #[inline(always)]
+    fn place_of_square<S: SimdLanes>(
+        &self,
+        spots: &Spots<f32x16<S>>,
+        own: &OwnLevel<S>,
+    ) -> OfSquare<S> {
+        let (x, y) = (
+            place_in(spots.at[0], own.width, self.mode(0)),
+            place_in(spots.at[1], own.height, self.mode(1)),
+        );
+        let mut first = [x.texel, y.texel];
+        if self.mode(0) == AddressMode::Repeat {
+            first[0] = tile_lanes(first[0], own.width);
+        }
+        if self.mode(1) == AddressMode::Repeat {
+            first[1] = tile_lanes(first[1], own.height);
+        }
+        let row = spots.slice * own.height + first[1];
+        OfSquare {
+            texel: row * own.width + own.begin + first[0],
+            x: x.fraction,
+            y: y.fraction,
         }
     }
 
@@ -237,6 +294,17 @@ fn centers<S: SimdLanes>(first: f32x16<S>, side: f32x16<S>) -> [f32x16<S>; 2] {
     [first, first + 2.0]
 }
 
+/// The texel at or before a wrapped coordinate, and the position between its centre and the next.
+#[inline(always)]
+fn place_in<S: SimdLanes>(
+    wrapped: f32x16<S>,
+    count: i32x16<S>,
+    mode: AddressMode,
+) -> Place<f32x16<S>> {
+    let length = count.to_real();
+    place_by_lane(wrapped, length, length - 1.0, mode)
+}
+
 /// The two texels between which a wrapped coordinate lies, and the position between their centres.
 #[inline(always)]
 fn pair<S: SimdLanes>(
@@ -244,18 +312,12 @@ fn pair<S: SimdLanes>(
     count: i32x16<S>,
     mode: AddressMode,
 ) -> ([i32x16<S>; 2], f32x16<S>) {
-    let length = count.to_real();
-    let mut at = wrapped * length - 0.5;
-    if mode != AddressMode::Repeat {
-        at = Real::clamp(at, 0.0, length - 1.0);
-    }
-    let whole = Real::floor(at);
-    let first = whole.to_int_within_range();
-    let next = first + Int::splat(first, 1);
+    let Place { texel, fraction } = place_in(wrapped, count, mode);
+    let next = texel + Int::splat(texel, 1);
     let texels = if mode == AddressMode::Repeat {
-        [tile_lanes(first, count), tile_lanes(next, count)]
+        [tile_lanes(texel, count), tile_lanes(next, count)]
     } else {
-        [first, Int::min(next, count - Int::splat(count, 1))]
+        [texel, Int::min(next, count - Int::splat(count, 1))]
     };
-    (texels, at - whole)
+    (texels, fraction)
 }
