@@ -255,6 +255,30 @@ pub struct Discards {
     pub depth_stencil: bool,
 }
 
+impl Discards {
+    /// All attachments.
+    pub(crate) const ALL: Self = Self {
+        colors: u8::MAX,
+        depth_stencil: true,
+    };
+
+    /// Those of both.
+    pub(crate) fn with(self, others: Self) -> Self {
+        Self {
+            colors: self.colors | others.colors,
+            depth_stencil: self.depth_stencil | others.depth_stencil,
+        }
+    }
+
+    /// Those that are not among others.
+    pub(crate) fn without(self, others: Self) -> Self {
+        Self {
+            colors: self.colors & !others.colors,
+            depth_stencil: self.depth_stencil & !others.depth_stencil,
+        }
+    }
+}
+
 /// Cancelling a pass, and watching its progress, between batches of draws: about every two million
 /// vertices.
 #[derive(Clone, Copy, Default)]

@@ -156,6 +156,9 @@ pub struct Statistics {
     /// Tiles of which some attachment was in the memory of a worker alone.
     #[doc(hidden)]
     pub tiles_in_workers: u64,
+    /// Tiles of several samples that were drawn in a worker's memory and then stored.
+    #[doc(hidden)]
+    pub tiles_streamed: u64,
     /// Attachments that had no memory, of which the pass needed more than one tile in a worker.
     #[doc(hidden)]
     pub images_given_memory: u64,
@@ -242,6 +245,7 @@ impl std::ops::AddAssign for Statistics {
         self.tiles_to_rows += other.tiles_to_rows;
         self.tiles_bounded += other.tiles_bounded;
         self.tiles_in_workers += other.tiles_in_workers;
+        self.tiles_streamed += other.tiles_streamed;
         self.images_given_memory += other.images_given_memory;
         self.blocks_uncleared += other.blocks_uncleared;
         self.blocks_of_one_depth += other.blocks_of_one_depth;

@@ -44,6 +44,7 @@ mod paired;
 mod permute;
 #[cfg(target_arch = "x86_64")]
 mod prefetch;
+mod streaming;
 mod table;
 
 pub use block::Columns;
@@ -63,6 +64,7 @@ pub use index::{Lane, LanesOf, PacketIndex};
 pub use lanes::Lanes;
 pub use level::{Level, LevelError};
 pub use packing::{Packing, Window};
+pub use streaming::Stream;
 pub use table::ByteTable;
 
 /// Number of lanes of a packet: 4×4 pixels.

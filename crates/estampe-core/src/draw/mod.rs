@@ -357,11 +357,16 @@ impl Context {
         };
         let taken = target.take_memory(discards);
         let given = taken.map_err(out_of_memory)?;
+        let streams = match is_last && target.samples() > 1 {
+            true => clear.cleared(Discards::ALL, target).without(discards),
+            false => Discards::default(),
+        };
         let attachments = TileAttachments {
             target,
             clear,
             is_last,
             discards,
+            streams,
         };
         let queries = pass.occlusion_queries;
         let mut statistics =

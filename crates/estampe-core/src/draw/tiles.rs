@@ -16,8 +16,13 @@ use crate::tile_pass::{
     self, Clear, MAX_TARGETS, TileJobs, TilePass, TileQueue, TileScratch, TileShares, TileStores,
     TileWords,
 };
+use estampe_simd::Stream;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, PoisonError};
+
+/// The most bytes of a tile that a worker draws in memory of its own before it is stored: they stay
+/// in the second-level cache, mostly.
+const MOST_STREAMED: u64 = 512 << 10;
 
 /// The images that tiles are drawn into.
 #[derive(Debug)]
@@ -29,6 +34,9 @@ pub(super) struct TileAttachments<'a> {
     pub(super) is_last: bool,
     /// Those that nothing was drawn into before, and that nobody needs afterwards.
     pub(super) discards: Discards,
+    /// Those of several samples that nothing was drawn into before, and that are stored when each
+    /// tile is drawn, if workers have room for them.
+    pub(super) streams: Discards,
 }
 
 impl Context {
@@ -45,9 +53,14 @@ impl Context {
             clear,
             is_last,
             discards,
+            mut streams,
         } = attachments;
+        let mut words = TileWords::of(target, discards.with(streams));
+        if !Stream::has_instructions(self.level) || words.bytes() > MOST_STREAMED {
+            streams = Discards::default();
+            words = TileWords::of(target, discards);
+        }
         // First of all: where memory is short, no image is taken to be drawn or resolved.
-        let words = TileWords::of(target, discards);
         match target.samples() {
             1 if !self.level.is_scalar() => memory.tiles_1.make_room(executor, words),
             4 if !self.level.is_scalar() => memory.tiles_4.make_room(executor, words),
@@ -93,7 +106,8 @@ impl Context {
             clear: *clear,
             samples: facts.samples,
             occlusion_queries,
-            discards,
+            in_workers: discards.with(streams),
+            streams,
             worker_words: &words,
             resolved,
             rows: &places,

@@ -37,7 +37,7 @@ use crate::plan::tile_plan::TilePlan;
 use crate::raster::{MAX_PACKETS, SampleSet, TileShape};
 use crate::segments::Segments;
 use crate::statistics::Statistics;
-use estampe_simd::{LANES, Level, dispatch, outline};
+use estampe_simd::{LANES, Level, Stream, dispatch, outline};
 use estampe_types::TextureFormat;
 use in_order::FragmentsTo;
 use next_tile::NextTile;
@@ -69,8 +69,10 @@ pub(crate) struct TilePass<'a> {
     pub(crate) samples: usize,
     pub(crate) occlusion_queries: Option<&'a OcclusionQueries>,
     /// The attachments of which workers keep one tile each, and what they keep of it.
-    pub(crate) discards: Discards,
+    pub(crate) in_workers: Discards,
     pub(crate) worker_words: &'a TileWords,
+    /// Those of them that are stored when a tile is drawn.
+    pub(crate) streams: Discards,
     /// By colour attachment: the format, if it is resolved when the tile is drawn.
     pub(crate) resolved: [Option<TextureFormat>; MAX_TARGETS],
     /// The images in row order that tiles are stored to.
@@ -139,33 +141,46 @@ pub(crate) struct TileScratch<const N: usize> {
 }
 
 /// Draws tiles that follow one another.
-pub(crate) fn draw<const N: usize>(
+pub(crate) fn draw<'a, const N: usize>(
     (pass, stores): (&TilePass<'_>, &TileStores<'_>),
-    mut jobs: TileJobs<'_>,
+    mut jobs: TileJobs<'a>,
     scratch: &mut TileScratch<N>,
 ) {
-    while let Some(mut job) = jobs.take_tile() {
-        // While nothing is drawn, nothing is prefetched.
-        if !pass.is_empty(job.tile) {
-            job.next = NextTile::of(pass, &jobs);
+    Stream::<'a>::with(pass.level, |stream| {
+        while let Some(job) = jobs.take_tile() {
+            // While nothing is drawn, nothing is prefetched.
+            let next = match pass.is_empty(job.tile) {
+                true => NextTile::default(),
+                false => NextTile::of(pass, &jobs),
+            };
+            if pass.in_workers == Discards::default() {
+                draw_into((pass, stores), &mut TileJob { next, ..job }, scratch);
+            } else {
+                draw_in_worker((pass, stores), (job, next), stream, scratch);
+            }
         }
-        draw_in_place((pass, stores), &mut job, scratch);
-    }
+    });
 }
 
-/// Draws a tile, in the worker's memory in place of the attachments that the pass discards.
-fn draw_in_place<const N: usize>(
+/// Draws a tile, in the worker's memory in place of the attachments that the pass discards, and of
+/// those that are stored afterwards.
+fn draw_in_worker<'a, const N: usize>(
     (pass, stores): (&TilePass<'_>, &TileStores<'_>),
-    job: &mut TileJob<'_>,
+    (job, next): (TileJob<'a>, NextTile<'_>),
+    stream: &mut Stream<'a>,
     scratch: &mut TileScratch<N>,
 ) {
-    if pass.discards == Discards::default() {
-        return draw_into((pass, stores), job, scratch);
-    }
     let mut tile = std::mem::take(&mut scratch.tile);
-    let kept = (pass.discards, pass.worker_words);
-    draw_into((pass, stores), &mut tile.job(kept, job), scratch);
-    scratch.statistics.tiles_in_workers += 1;
+    let (mut in_tile, images) = tile.job((pass.in_workers, pass.worker_words), job);
+    in_tile.next = next;
+    draw_into((pass, stores), &mut in_tile, scratch);
+    if pass.in_workers != pass.streams {
+        scratch.statistics.tiles_in_workers += 1;
+    }
+    if pass.streams != Discards::default() {
+        worker_tile::store(&in_tile, images, (pass.streams, stream));
+        scratch.statistics.tiles_streamed += 1;
+    }
     scratch.tile = tile;
 }
 

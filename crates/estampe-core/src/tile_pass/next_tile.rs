@@ -23,14 +23,14 @@ impl<'a> NextTile<'a> {
         let Some(tile) = left.first_tile() else {
             return Self::default();
         };
-        let discards = pass.discards;
+        let in_workers = pass.in_workers;
         Self {
-            color: if discards.colors & 1 == 0 {
+            color: if in_workers.colors & 1 == 0 {
                 left.first_colors()
             } else {
                 &[]
             },
-            depth: if discards.depth_stencil {
+            depth: if in_workers.depth_stencil {
                 &[]
             } else {
                 left.first_depths()

@@ -31,6 +31,7 @@ mod resolve;
 mod several_targets;
 mod several_threads;
 mod storage_textures;
+mod stored_samples;
 mod submissions;
 mod support;
 mod texture_levels;
