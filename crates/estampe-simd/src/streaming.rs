@@ -5,9 +5,12 @@
 //!
 //! This module has `unsafe` code: the instructions store by address.
 
-use crate::{LANES, Level};
+use crate::{LANES, Lanes, Level, dispatch};
+#[cfg(target_arch = "x86_64")]
+use fearless_simd::x86::{Avx2, Avx512, Sse2};
 #[cfg(target_arch = "x86_64")]
 use fearless_simd::{SimdBase, u32x4, u32x8, u32x16};
+use std::cell::Cell;
 use std::marker::PhantomData;
 
 /// A cache line of words.
@@ -17,10 +20,21 @@ type Line = [u32; LANES];
 ///
 /// The memory stays borrowed until all of it is written: other threads see it after
 /// [`Stream::with`].
+///
+/// ```compile_fail
+/// use estampe_simd::{Level, Stream};
+///
+/// let mut memory = [[0; 16]];
+/// Stream::with(Level::best(), |stream| {
+///     stream.copy(&[[1; 16]], &mut memory);
+///     memory[0][0] = 2; // Not before the end of `with`.
+/// });
+/// ```
 #[derive(Debug)]
 pub struct Stream<'m> {
     level: Level,
-    memory: PhantomData<&'m mut [Line]>,
+    /// A cell, so that no shorter borrow will do.
+    memory: PhantomData<Cell<&'m mut [Line]>>,
 }
 
 impl<'m> Stream<'m> {
@@ -46,17 +60,7 @@ impl<'m> Stream<'m> {
     /// If there are more lines of one than of the other.
     pub fn copy(&mut self, from: &[Line], to: &'m mut [Line]) {
         assert_eq!(from.len(), to.len(), "as many lines");
-        #[cfg(target_arch = "x86_64")]
-        if to.as_ptr().addr().is_multiple_of(size_of::<Line>()) {
-            match self.level {
-                Level::Avx512(simd) => return avx512(simd, from, to),
-                Level::Avx2(simd) => return avx2(simd, from, to),
-                Level::Sse2(simd) => return sse2(simd, from, to),
-                #[cfg(scalar_level)]
-                Level::Scalar(_) => {}
-            }
-        }
-        to.copy_from_slice(from);
+        dispatch!(self.level, s => s.stream(self, from, to));
     }
 }
 
@@ -74,50 +78,85 @@ impl Drop for Fence {
     }
 }
 
+/// True if lines begin at cache lines.
 #[cfg(target_arch = "x86_64")]
-fearless_simd::kernel!(
-    #[expect(unsafe_code, reason = "streaming stores have no safe form")]
-    fn sse2(simd: Sse2, from: &[Line], to: &mut [Line]) {
-        use core::arch::x86_64::*;
-        let (from, _) = from.as_flattened().as_chunks::<4>();
-        let (to, _) = to.as_flattened_mut().as_chunks_mut::<4>();
-        for (from, to) in from.iter().zip(to) {
-            let words = u32x4::load_array_ref(simd, from).into();
-            // SAFETY: a fourth of a line that is borrowed until a fence; it begins at a multiple of
-            // 16 bytes, as lines do at one of 64.
-            unsafe { _mm_stream_si128(to.as_mut_ptr().cast(), words) };
-        }
-    }
-);
+#[inline(always)]
+fn are_aligned(lines: &[Line]) -> bool {
+    lines.as_ptr().addr().is_multiple_of(size_of::<Line>())
+}
 
 #[cfg(target_arch = "x86_64")]
-fearless_simd::kernel!(
-    #[expect(unsafe_code, reason = "streaming stores have no safe form")]
-    fn avx2(simd: Avx2, from: &[Line], to: &mut [Line]) {
-        use core::arch::x86_64::*;
-        let (from, _) = from.as_flattened().as_chunks::<8>();
-        let (to, _) = to.as_flattened_mut().as_chunks_mut::<8>();
-        for (from, to) in from.iter().zip(to) {
-            let words = u32x8::load_array_ref(simd, from).into();
-            // SAFETY: a half of a line that is borrowed until a fence; it begins at a multiple of
-            // 32 bytes, as lines do at one of 64.
-            unsafe { _mm256_stream_si256(to.as_mut_ptr().cast(), words) };
+#[inline(always)]
+pub(crate) fn sse2<'m>(simd: Sse2, _: &Stream<'m>, from: &[Line], to: &'m mut [Line]) {
+    fearless_simd::kernel!(
+        #[inline(always)]
+        #[expect(unsafe_code, reason = "streaming stores have no safe form")]
+        fn kernel(simd: Sse2, from: &[Line], to: &mut [Line]) {
+            use core::arch::x86_64::*;
+            let (from, _) = from.as_flattened().as_chunks::<4>();
+            let (to, _) = to.as_flattened_mut().as_chunks_mut::<4>();
+            for (from, to) in from.iter().zip(to) {
+                let words = u32x4::load_array_ref(simd, from).into();
+                // SAFETY: a fourth of a line that is borrowed until a fence; it begins at a
+                // multiple of 16 bytes, as lines do at one of 64.
+                unsafe { _mm_stream_si128(to.as_mut_ptr().cast(), words) };
+            }
         }
+    );
+    if are_aligned(to) {
+        kernel(simd, from, to);
+    } else {
+        to.copy_from_slice(from);
     }
-);
+}
 
 #[cfg(target_arch = "x86_64")]
-fearless_simd::kernel!(
-    #[expect(unsafe_code, reason = "streaming stores have no safe form")]
-    fn avx512(simd: Avx512, from: &[Line], to: &mut [Line]) {
-        use core::arch::x86_64::*;
-        for (from, to) in from.iter().zip(to) {
-            let words = u32x16::load_array_ref(simd, from).into();
-            // SAFETY: a line that is borrowed until a fence; it begins at a multiple of 64 bytes.
-            unsafe { _mm512_stream_si512(to.as_mut_ptr().cast(), words) };
+#[inline(always)]
+pub(crate) fn avx2<'m>(simd: Avx2, _: &Stream<'m>, from: &[Line], to: &'m mut [Line]) {
+    fearless_simd::kernel!(
+        #[inline(always)]
+        #[expect(unsafe_code, reason = "streaming stores have no safe form")]
+        fn kernel(simd: Avx2, from: &[Line], to: &mut [Line]) {
+            use core::arch::x86_64::*;
+            let (from, _) = from.as_flattened().as_chunks::<8>();
+            let (to, _) = to.as_flattened_mut().as_chunks_mut::<8>();
+            for (from, to) in from.iter().zip(to) {
+                let words = u32x8::load_array_ref(simd, from).into();
+                // SAFETY: a half of a line that is borrowed until a fence; it begins at a
+                // multiple of 32 bytes, as lines do at one of 64.
+                unsafe { _mm256_stream_si256(to.as_mut_ptr().cast(), words) };
+            }
         }
+    );
+    if are_aligned(to) {
+        kernel(simd, from, to);
+    } else {
+        to.copy_from_slice(from);
     }
-);
+}
+
+#[cfg(target_arch = "x86_64")]
+#[inline(always)]
+pub(crate) fn avx512<'m>(simd: Avx512, _: &Stream<'m>, from: &[Line], to: &'m mut [Line]) {
+    fearless_simd::kernel!(
+        #[inline(always)]
+        #[expect(unsafe_code, reason = "streaming stores have no safe form")]
+        fn kernel(simd: Avx512, from: &[Line], to: &mut [Line]) {
+            use core::arch::x86_64::*;
+            for (from, to) in from.iter().zip(to) {
+                let words = u32x16::load_array_ref(simd, from).into();
+                // SAFETY: a line that is borrowed until a fence; it begins at a multiple of 64
+                // bytes.
+                unsafe { _mm512_stream_si512(to.as_mut_ptr().cast(), words) };
+            }
+        }
+    );
+    if are_aligned(to) {
+        kernel(simd, from, to);
+    } else {
+        to.copy_from_slice(from);
+    }
+}
 
 #[cfg(test)]
 mod tests {

@@ -11,7 +11,7 @@ mod simd128;
 #[cfg(target_arch = "x86_64")]
 mod x86;
 
-use crate::{ByteTable, Columns, Level, Packing, Window};
+use crate::{ByteTable, Columns, LANES, Level, Packing, Stream, Window};
 use fearless_simd::{
     Select, Simd, SimdBase, SimdFloat, SimdMask, f32x16, i32x16, mask32x16, u32x16,
 };
@@ -56,6 +56,14 @@ pub trait Lanes: Simd {
     /// end does no harm.
     #[inline(always)]
     fn prefetch_elements(self, _table: &[u32], _index: u32x16<Self>) {}
+
+    /// Copies lines past the caches where the level has an instruction for that: see
+    /// [`Stream::copy`].
+    #[doc(hidden)]
+    #[inline(always)]
+    fn stream<'m>(self, _: &Stream<'m>, from: &[[u32; LANES]], to: &'m mut [[u32; LANES]]) {
+        to.copy_from_slice(from);
+    }
 
     /// `a < b ? a : b` in each lane: `b` if either is NaN, and of two zeros `b`.
     #[inline(always)]

@@ -1,7 +1,7 @@
 //! The levels of x86-64: SSE2, AVX2 and AVX-512.
 
 use super::Lanes;
-use crate::{ByteTable, Columns, Level, Packing, Window};
+use crate::{ByteTable, Columns, LANES, Level, Packing, Stream, Window};
 use fearless_simd::x86::{Avx2, Avx512, Sse2};
 use fearless_simd::{
     Select, SimdBase, SimdCvtFloat, SimdCvtTruncate, SimdFloat, f32x16, i32x16, mask32x16, u32x16,
@@ -28,6 +28,10 @@ impl Lanes for Sse2 {
     #[inline(always)]
     fn prefetch_elements(self, table: &[u32], index: u32x16<Self>) {
         crate::prefetch::elements_sse2(self, table, index);
+    }
+    #[inline(always)]
+    fn stream<'m>(self, stream: &Stream<'m>, from: &[[u32; LANES]], to: &'m mut [[u32; LANES]]) {
+        crate::streaming::sse2(self, stream, from, to);
     }
     #[inline(always)]
     fn min_f32(self, a: f32x16<Self>, b: f32x16<Self>) -> f32x16<Self> {
@@ -91,6 +95,10 @@ impl Lanes for Avx2 {
     #[inline(always)]
     fn prefetch_elements(self, table: &[u32], index: u32x16<Self>) {
         crate::prefetch::elements_avx2(self, table, index);
+    }
+    #[inline(always)]
+    fn stream<'m>(self, stream: &Stream<'m>, from: &[[u32; LANES]], to: &'m mut [[u32; LANES]]) {
+        crate::streaming::avx2(self, stream, from, to);
     }
     #[inline(always)]
     fn min_f32(self, a: f32x16<Self>, b: f32x16<Self>) -> f32x16<Self> {
@@ -268,6 +276,10 @@ impl Lanes for Avx512 {
     #[inline(always)]
     fn prefetch_elements(self, table: &[u32], index: u32x16<Self>) {
         crate::prefetch::elements_avx512(self, table, index);
+    }
+    #[inline(always)]
+    fn stream<'m>(self, stream: &Stream<'m>, from: &[[u32; LANES]], to: &'m mut [[u32; LANES]]) {
+        crate::streaming::avx512(self, stream, from, to);
     }
     #[inline(always)]
     fn min_f32(self, a: f32x16<Self>, b: f32x16<Self>) -> f32x16<Self> {
