@@ -90,7 +90,7 @@ impl TiledTexels {
         texels: &mut [Answers],
     ) {
         dispatch!(@wide_move level, s => {
-            let packets = positions.iter().zip(texels.chunks_exact_mut(all.len()));
+            let packets = positions.iter().zip(texels.chunks_exact_mut(all.len().max(1)));
             for ([x, y, ..], texels) in packets {
                 let at = [
                     f32x16::load_array_ref(s, &x.0).to_int_within_range(),

@@ -4,8 +4,8 @@
 //! If all lanes are in the same mip level or between the same two, and all texels are inside, they
 //! are loaded as squares (`inside.rs`); in other packets each lane has its own level and texels
 //! (`each_level.rs`). Where the [squares](estampe_types::ByteSquares) of texels of one byte are
-//! made, they serve all packets. Colours are in the units of [`texel`](crate::texel) until the end. These are
-//! the units of the scalar code, times a power of two, so the bits are the same.
+//! made, they serve all packets. Colours are in the units of [`texel`](crate::texel) until the end.
+//! These are the units of the scalar code, times a power of two, so the bits are the same.
 
 use super::places::Spots;
 use super::{LevelTable, Packet, only_red};
