@@ -63,9 +63,9 @@ impl TiledTexels {
             format: packets,
             scale: codec.scale(),
         };
+        let block = (BLOCK * BLOCK * tiled.format.words.cast_unsigned()) as usize;
         let blocks = size.map(|side| side.div_ceil(BLOCK) as usize);
-        let packets = blocks[0] * blocks[1] * BLOCK_PACKETS as usize;
-        let needed = packets * LANES * tiled.format.words.cast_unsigned() as usize;
+        let needed = blocks[0].saturating_mul(blocks[1]).saturating_mul(block);
         (is_known && needed > 0 && tiled.words().len() >= needed).then_some(tiled)
     }
 

@@ -153,6 +153,7 @@ fn other_formats_and_missing_words_have_no_tiles() {
     }
     let short = TiledWords::Colors(Arc::new(Lines::from(vec![0; 4095])));
     assert!(TiledTexels::new(F::Rgba8Unorm, [8, 8], short.clone()).is_none());
+    assert!(TiledTexels::new(F::Rgba8Unorm, [u32::MAX; 2], short.clone()).is_none());
     assert!(TiledTexels::new(F::Rgba8Unorm, [0, 8], short).is_none());
     let colors = TiledWords::Colors(Arc::new(Lines::from(vec![0; 4096])));
     assert!(TiledTexels::new(F::Depth32Float, [8, 8], colors).is_none());
