@@ -16,7 +16,7 @@ mod survivors;
 use capacity::CAPACITY;
 
 pub(crate) use block::TriangleBlock;
-pub(crate) use capacity::{PACKETS_OF_VISIBILITY, packets_in_order};
+pub(crate) use capacity::{packets_of_call, packets_of_visibility};
 pub(crate) use pixels::PixelPacket;
 pub(crate) use quads::QuadPlace;
 pub(crate) use shaded::{LatePacket, ShadedBatch, depth_after_shading};

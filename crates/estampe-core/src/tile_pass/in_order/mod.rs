@@ -49,7 +49,7 @@ use crate::bounds::bins::BinEntry;
 use crate::bounds::primitives::PackedTriangle;
 use crate::fragment::interpolate::{LineInterpolant, VaryingPlanes, VaryingSource};
 use crate::fragment::last_packet::LastPacket;
-use crate::fragment::queue::{Survivors, packets_in_order};
+use crate::fragment::queue::{Survivors, packets_of_call};
 use crate::per_sample::source_over::Layers;
 use crate::plan::tile_plan::{TestTiming, TilePlan};
 use crate::raster::clip_masks::ClipMasks;
@@ -197,7 +197,7 @@ fn begin_queue<const N: usize>(
     let samples = SampleSet::new(work.samples);
     let range = plan.tests.stored.range;
     let tests_late = plan.timing != TestTiming::Early && !plan.tests.is_empty();
-    let room = packets_in_order(pipeline.interface());
+    let room = packets_of_call(pipeline.interface());
     scratch.in_order.list.set_samples(samples);
     if let Some([_, sub_draw]) = scratch.in_order.waiting
         && pass.plans[sub_draw as usize].queues_like(plan)

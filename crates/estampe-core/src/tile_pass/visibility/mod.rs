@@ -40,7 +40,7 @@ mod writer;
 
 use super::{TileJob, TilePass, TileScratch, TileWork, clear_blocks};
 use crate::bounds::bins::BinEntry;
-use crate::fragment::queue::PACKETS_OF_VISIBILITY;
+use crate::fragment::queue::packets_of_visibility;
 use crate::raster::CoverageList;
 use crate::raster::packet_edges::PacketEdges;
 use crate::raster::pixel_list::PixelList;
@@ -137,7 +137,7 @@ pub(super) fn add<const N: usize>(
             plan.pipeline,
             pass.sample_set(),
             range,
-            (false, PACKETS_OF_VISIBILITY),
+            (false, packets_of_visibility(plan.pipeline)),
         );
     }
     rasterize::rasterize(pass, (work, entries), first, (job, ahead), scratch);

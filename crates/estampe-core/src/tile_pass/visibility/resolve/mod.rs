@@ -26,7 +26,7 @@ use super::shortcuts::PrimitiveTexels;
 use super::writer::IdStorage;
 use super::{ONLY_WIDE, VisibilityScratch};
 use crate::fragment::cross_triangle::CrossPlanes;
-use crate::fragment::queue::{PACKETS_OF_VISIBILITY, PrimitivePacket};
+use crate::fragment::queue::{PrimitivePacket, packets_of_visibility};
 use crate::pipeline::RenderPipeline;
 use crate::pipeline::color_target::ColorTarget;
 use crate::plan::tile_plan::TilePlan;
@@ -235,7 +235,7 @@ impl<'a, 'j, 't, const N: usize> Resolver<'a, 'j, 't, N> {
             self.plan.pipeline,
             self.samples,
             self.plan.tests.stored.range,
-            (false, PACKETS_OF_VISIBILITY),
+            (false, packets_of_visibility(self.plan.pipeline)),
         );
         let level = self.pass.level;
         let key = self.plan.pipeline.key();

@@ -8,7 +8,7 @@
 use super::ids::lanes_in;
 use super::per_primitive::store_texels;
 use super::{IdStorage, Resolver, ShadingGroup};
-use crate::fragment::queue::PACKETS_OF_VISIBILITY;
+use crate::fragment::queue::packets_of_visibility;
 use crate::per_sample::color_writer::ColorWriter;
 use crate::pipeline::color_target::MAX_WORDS;
 use crate::raster::Covered;
@@ -176,7 +176,7 @@ impl<const N: usize> Resolver<'_, '_, '_, N> {
                 pipeline,
                 self.samples,
                 plan.tests.stored.range,
-                (false, PACKETS_OF_VISIBILITY),
+                (false, packets_of_visibility(pipeline)),
             );
             self.shaded_last = Some(pipeline);
         }
