@@ -15,7 +15,7 @@ use estampe_simd::{
 };
 use estampe_types::{Bindings, BufferData, Interface, VertexBatch};
 
-/// The most packets that a program shades in one call: see [`vertex_packets`](estampe_types::Program::vertex_packets).
+/// The most packets that a program shades in one call: 16 are no gain.
 const BATCH: usize = 8;
 
 /// The memory of vertices is prefetched as many before they are stored: four packets.
@@ -81,24 +81,13 @@ struct ShadeBatch {
     first: u32,
     done: usize,
     total: usize,
-    /// The most packets of the batch.
-    most: usize,
 }
 
 impl ShadeBatch {
-    fn new(source: &VertexSource<'_>, first: u32, total: usize) -> Self {
-        Self {
-            first,
-            done: 0,
-            total,
-            most: source.pipeline.program().vertex_packets().clamp(1, BATCH),
-        }
-    }
-
     /// Returns the number of packets in the batch.
     #[inline(always)]
     fn packets(self) -> usize {
-        (self.total - self.done).div_ceil(LANES).min(self.most)
+        (self.total - self.done).div_ceil(LANES).min(BATCH)
     }
 }
 
@@ -113,7 +102,11 @@ pub(crate) fn shade(
 ) {
     let interface = source.pipeline.interface();
     let total = out.window.len();
-    let mut batch = ShadeBatch::new(source, first, total);
+    let mut batch = ShadeBatch {
+        first,
+        done: 0,
+        total,
+    };
     while batch.done < total {
         run(level, source, batch, scratch);
         dispatch!(level, s => store_batch(s, transform, batch, out, scratch));
@@ -121,7 +114,7 @@ pub(crate) fn shade(
             let window = &mut out.window[batch.done..];
             mark_outside_distances(interface, &scratch.distances, window);
         }
-        batch.done += batch.most * LANES;
+        batch.done += BATCH * LANES;
     }
 }
 
@@ -133,7 +126,11 @@ pub(crate) fn shade_positions(
     scratch: &mut ShadingScratch,
 ) -> [Packet<f32>; 4] {
     let total = source.total().saturating_sub(first).min(PACKET) as usize;
-    let batch = ShadeBatch::new(source, first, total);
+    let batch = ShadeBatch {
+        first,
+        done: 0,
+        total,
+    };
     run(level, source, batch, scratch);
     scratch.positions[0]
 }

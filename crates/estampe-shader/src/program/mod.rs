@@ -202,10 +202,6 @@ impl Program for TextProgram {
         })
     }
 
-    fn vertex_packets(&self) -> usize {
-        8
-    }
-
     fn run_vertices(&self, level: Level, bindings: &Bindings, batch: VertexBatch<'_>) {
         let stage = &self.vertex;
         if self.stopped.is_stopped() {

@@ -239,13 +239,6 @@ pub trait Program: Send + Sync + std::fmt::Debug {
     fn alpha_test(&self, _bindings: &Bindings, _request: AlphaTestRequest) -> Option<AlphaTest> {
         None
     }
-    /// The packets of vertices that a call of [`Self::run_vertices`] is best given, 1 to 8. Few, as
-    /// fetching and storing wait for memory while programs compute: of a million triangles' half a
-    /// million vertices, with 2, 4, 8 and 16 packets, geometry took 9.6, 9.9, 10.5 and 11.6 ms of
-    /// CPU time with a shader in Rust. More are better where a call itself costs much.
-    fn vertex_packets(&self) -> usize {
-        2
-    }
     /// Shades packets of vertices.
     fn run_vertices(&self, level: Level, bindings: &Bindings, batch: VertexBatch<'_>);
     /// Shades packets of fragments.
