@@ -31,6 +31,19 @@ impl Track {
         whole: 0,
     };
 
+    /// True of data that are not in memory.
+    pub(crate) fn is_nowhere(&self) -> bool {
+        self.kind.is_none()
+    }
+
+    /// True if the packets are where those of another track are, and of so many parts all packets
+    /// of the run are in memory.
+    #[inline(always)]
+    pub(crate) fn goes_as(&self, other: &Self, parts: usize) -> bool {
+        (self.kind, self.start, self.step) == (other.kind, other.start, other.step)
+            && self.whole >= parts
+    }
+
     /// The packets in a slice of which packet 0 is at `first`, and the others `stride` elements
     /// after each other, in a run that ends with packet `last`.
     #[inline(always)]

@@ -83,28 +83,27 @@ impl Code {
             let mut passes = left / of_pass;
             let pointers = (self.frame.pointers / LINE) as usize;
             let all = pointers..pointers + of_pass * self.frame.packet_lines();
-            if packet == 0 && begin.is_of(self, run.packets, tracks) {
-                lines[all].copy_from_slice(&begin.pointers);
+            let known = begin.pointers(self, run, tracks).filter(|_| packet == 0);
+            if let Some(known) = known {
+                let len = all.len();
+                lines[all].copy_from_slice(&known[..len]);
+            } else if (of_pass, left) == (1, 1) {
+                // A packet alone, which takes no step, so that those of a pass stay in the frame.
+                self.set_packet((run, tracks), lines, packet, (pointers, None));
             } else {
                 // Where some slice is too short, the places of each pass are looked for.
                 let (data, packets) = ((run, tracks), (packet, of_pass));
                 let is_led = self.set_packets(data, lines, packets, self.frame.packet_lines());
-                begin.code = 0;
-                if !is_led {
-                    passes = 1;
-                } else if passes > 1 {
+                begin.forget();
+                if is_led {
                     if of_pass > 1 {
                         self.set_steps(lines, of_pass);
                     }
-                    // Steps of packets that are left over would replace those of the first pass.
-                    if packet == 0 && passes * of_pass == left && self.are_in_memory(run, tracks) {
-                        begin.code = self.id;
-                        begin.packets = run.packets;
-                        begin.tracks.clear();
-                        begin.tracks.extend_from_slice(tracks);
-                        begin.pointers.clear();
-                        begin.pointers.extend_from_slice(&lines[all]);
+                    if packet == 0 {
+                        begin.note(self, run, tracks, &lines[all]);
                     }
+                } else {
+                    passes = 1;
                 }
             }
             if self.has_workgroup_ids() && passes * of_pass == run.packets {
@@ -119,15 +118,6 @@ impl Code {
         Ok(again)
     }
 
-    /// True if all inputs of a run are in memory, so that none is made in the frame.
-    fn are_in_memory(&self, run: &Run<'_>, tracks: &[Track]) -> bool {
-        (0..).zip(&self.input_types).all(|(number, &kind)| {
-            let part = Part::of(run.input_parts, number);
-            let track = tracks[..run.inputs.len()].get(part.data as usize);
-            track.is_some_and(|track| track.whole_part(kind, part.first, 0).is_some())
-        })
-    }
-
     /// Makes room for a frame with so many states, and for the memory of a work-group, which is
     /// cleared.
     pub(crate) fn make_room(&self, states: usize, scratch: &mut Scratch) -> Result<(), Stopped> {
@@ -139,7 +129,7 @@ impl Code {
         }
         if scratch.code != self.id {
             scratch.code = self.id;
-            scratch.begin.code = 0;
+            scratch.begin.forget();
             scratch.lines[..lines].fill(Line::default());
             scratch.padded.clear();
             scratch.padded.resize(self.fixed_words.len(), Vec::new());
@@ -219,11 +209,11 @@ impl Code {
     ) -> bool {
         let parts = [self.frame.pointers, self.frame.steps];
         let [pointers, steps] = parts.map(|offset| (offset / LINE) as usize);
-        let is_led = self.set_packet(data, lines, first, [pointers, steps]);
+        let is_led = self.set_packet(data, lines, first, (pointers, Some(steps)));
         for packet in 1..count {
             let to = pointers + packet * apart;
             if !is_led {
-                let places = [to, steps + packet * apart];
+                let places = (to, Some(steps + packet * apart));
                 self.set_packet(data, lines, first + packet, places);
                 continue;
             }
@@ -250,15 +240,15 @@ impl Code {
         }
     }
 
-    /// Sets the pointers of inputs and outputs to a packet, and their steps to the next one, in
-    /// lines from these on. True if the steps lead to all packets of the run.
+    /// Sets the pointers of inputs and outputs to a packet, and their steps to the next one if they
+    /// are wanted, in lines from these on. True if the steps lead to all packets of the run.
     #[inline(always)]
     fn set_packet(
         &self,
         (run, tracks): (&Run<'_>, &[Track]),
         lines: &mut [Line],
         packet: usize,
-        [pointers, steps]: [usize; 2],
+        (pointers, steps): (usize, Option<usize>),
     ) -> bool {
         let (inputs, outputs) = tracks.split_at(run.inputs.len());
         let first = self.input_types.len();
@@ -280,7 +270,9 @@ impl Code {
                     }
                 };
                 lines[pointers + at / WORDS].0[at % WORDS] = address as u64;
-                lines[steps + at / WORDS].0[at % WORDS] = step as u64;
+                if let Some(steps) = steps {
+                    lines[steps + at / WORDS].0[at % WORDS] = step as u64;
+                }
             }
         }
         is_led

@@ -158,15 +158,16 @@ b0:
   v0 = input 0
   v1 = input 1
   m2 = input_mask 2
-  v3 = add v0, v1
-  uv4 = const 100
-  m5 = ult v3, uv4
-  m6 = mand m2, m5
-  return v3, v1, m6
+  v3 = mul v0, v0
+  v4 = add v3, v1
+  uv5 = const 3000
+  m6 = ult v4, uv5
+  m7 = mand m2, m6
+  return v4, v1, m7
 ";
 
-/// Runs one after the other whose data are in the same memory, or elsewhere, or of other lengths,
-/// with another code between them.
+/// Runs one after the other whose data are in the same memory, or elsewhere, or other parts of them,
+/// with other numbers of packets, some without a place, with another code between them.
 #[test]
 fn runs_in_the_same_memory_give_their_own_results() {
     let kernel = text::kernel(ALL_IN_MEMORY).unwrap();
@@ -178,24 +179,35 @@ fn runs_in_the_same_memory_give_their_own_results() {
             let mut scratch = Scratch::default();
             let mut memories = [(); 2].map(|()| vec![Packet([0; LANES]); 16 * 2]);
             let mut results = [(); 2].map(|()| vec![Packet([0; LANES]); 16]);
-            for round in 0..24_usize {
-                let packets = if round % 7 == 3 { 5 } else { 16 };
-                let scalars = &mut memories[usize::from(round % 5 == 4)];
+            let mut masks = [[0; 16]; 2];
+            // A random number below `of` is 0 as often as not, so that runs follow like ones.
+            let turn = |random: &mut fastrand::Rng, of: usize| random.usize(..2 * of).min(of) % of;
+            for round in 0..400 {
+                let packets = 16 - turn(&mut random, 16);
+                let scalars = &mut memories[turn(&mut random, 2)];
                 for packet in &mut *scalars {
                     packet.0.fill_with(|| random.u32(..100));
                 }
-                let given: Vec<u16> = (0..packets).map(|_| random.u16(..)).collect();
-                let mut masks = [given.clone(), given];
+                masks[0].fill_with(|| random.u16(..));
+                masks[1] = masks[0];
+                // Of every twentieth run the last packets have no place.
+                let missing = if random.u8(..20) == 0 {
+                    random.usize(..=packets * 2)
+                } else {
+                    0
+                };
+                let scalars = &scalars[..packets * 2 - missing];
+                let parts = [[0, 1], [1, 0]][turn(&mut random, 2)];
+                let part = |data, first| Part { data, first };
+                let parts = [part(0, parts[0]), part(0, parts[1]), part(1, 0)];
+                let code = &codes[turn(&mut random, 4) / 3];
                 let [of_code, of_definition] = &mut masks;
                 let [found, wanted] = &mut results;
-                let mut go = |to: &mut Vec<Packet<u32>>, mask: &mut Vec<u16>, is_code: bool| {
-                    let mask = cells(mask);
+                let mut go = |to: &mut Vec<Packet<u32>>, mask: &mut [u16], is_code: bool| {
+                    let mask = cells(&mut mask[..packets]);
                     let run = Run {
-                        inputs: &[
-                            InputData::words(scalars, 0, 2),
-                            InputData::words(scalars, 1, 2),
-                            InputData::SharedMask(mask),
-                        ],
+                        inputs: &[InputData::words(scalars, 0, 2), InputData::SharedMask(mask)],
+                        input_parts: &parts,
                         outputs: &[
                             OutputData::words(cells(to), 0, 1),
                             OutputData::Dropped,
@@ -204,7 +216,6 @@ fn runs_in_the_same_memory_give_their_own_results() {
                         ..Run::new(packets)
                     };
                     if is_code {
-                        let code = &codes[usize::from(round % 9 == 8)];
                         code.run(Level::best(), &run, &mut scratch).unwrap();
                     } else {
                         let mut registers = interpreter::Scratch::default();
