@@ -166,8 +166,8 @@ b0:
   return v4, v1, m7
 ";
 
-/// Runs one after the other whose data are in the same memory, or elsewhere, or other parts of them,
-/// with other numbers of packets, some without a place, with another code between them.
+/// Runs one after the other whose data are in the same memory, or elsewhere, or other parts of
+/// them, with other numbers of packets, some without a place, with another code between them.
 #[test]
 fn runs_in_the_same_memory_give_their_own_results() {
     let kernel = text::kernel(ALL_IN_MEMORY).unwrap();
