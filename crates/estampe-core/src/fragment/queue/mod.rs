@@ -194,13 +194,14 @@ impl<const N: usize> FragmentQueue<N> {
         };
         let zero = Packet::default();
         let of = |needed: bool, each: usize| if needed { each * CAPACITY } else { 0 };
-        self.varyings.resize(of(true, self.scalars), zero);
+        // What they held before may stay, so that pipelines in turns clear nothing.
+        grow(&mut self.varyings, self.scalars * CAPACITY);
+        grow(&mut self.colors, self.colors_each * 4 * CAPACITY);
         self.spare.resize(self.scalars, zero);
         self.sample_index.resize(of(self.needs.sample_index, 1), 0);
         self.samples_covered
             .resize(of(self.needs.coverage, 1), Packet::default());
         self.depths.resize(of(tests_late, N), zero);
-        self.colors.resize(of(true, self.colors_each * 4), zero);
         self.sample_masks
             .resize(of(self.needs.sample_mask, 1), Packet::default());
     }
@@ -432,5 +433,12 @@ impl<const N: usize> FragmentQueue<N> {
         self.shaded_len = 0;
         self.open = None;
         self.open_pixels = None;
+    }
+}
+
+/// Makes room for so many packets.
+fn grow(packets: &mut Vec<Packet<f32>>, count: usize) {
+    if packets.len() < count {
+        packets.resize(count, Packet::default());
     }
 }
