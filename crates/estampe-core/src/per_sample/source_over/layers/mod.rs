@@ -15,6 +15,9 @@ pub(crate) struct Layers {
     layers: Vec<Layer>,
     /// By layer: its estimate in the block at hand.
     estimates: [BlockEstimate; MOST],
+    /// By layer, block and packet: the lanes to blend, in partial blocks. Those of other blocks are
+    /// left from layers before, as to clear all takes a fortieth of the time.
+    masks: [[[u16; LANES]; LANES]; MOST],
     counts: LayerCounts,
 }
 
@@ -27,8 +30,6 @@ struct Layer {
     blocks: u16,
     /// Those of which some pixel is not covered or failed the depth test.
     partial: u16,
-    /// By block and packet: the lanes to blend, in partial blocks.
-    masks: [[u16; LANES]; LANES],
 }
 
 /// How packets were blended.
@@ -60,7 +61,6 @@ impl Layers {
             colors,
             blocks: 0,
             partial: 0,
-            masks: [[0; LANES]; LANES],
         });
     }
 
@@ -75,6 +75,7 @@ impl Layers {
     /// Adds a block to the last layer, with the lanes of each packet that pass.
     #[inline(always)]
     pub(crate) fn add_tested(&mut self, block: u32, masks: &[u16; LANES]) {
+        let last = self.layers.len().wrapping_sub(1) % MOST;
         if let Some(layer) = self.layers.last_mut() {
             let bit = 1 << block;
             if *masks == [0; LANES] {
@@ -83,7 +84,7 @@ impl Layers {
             layer.blocks |= bit;
             if *masks != [u16::MAX; LANES] {
                 layer.partial |= bit;
-                layer.masks[block as usize % LANES] = *masks;
+                self.masks[last][block as usize % LANES] = *masks;
             }
         }
     }
@@ -91,14 +92,19 @@ impl Layers {
     /// Adds lanes of a packet of the tile to the last layer.
     #[inline(always)]
     pub(crate) fn add_packet(&mut self, packet: u16, mask: u16) {
+        let last = self.layers.len().wrapping_sub(1) % MOST;
         if let Some(layer) = self.layers.last_mut() {
             let (block, packet) = (
                 usize::from(packet) / LANES % LANES,
                 usize::from(packet) % LANES,
             );
+            let masks = &mut self.masks[last][block];
+            if layer.partial >> block & 1 == 0 {
+                *masks = [0; LANES];
+            }
             layer.blocks |= 1 << block;
             layer.partial |= 1 << block;
-            layer.masks[block][packet] = mask;
+            masks[packet] = mask;
         }
     }
 
@@ -149,6 +155,7 @@ impl Layers {
         let visit = Visit {
             layers: &self.layers,
             estimates: &self.estimates,
+            masks: &self.masks,
             of_block: &of_block[..count],
             block: number,
         };
@@ -187,6 +194,7 @@ impl TileBlock {
 struct Visit<'a> {
     layers: &'a [Layer],
     estimates: &'a [BlockEstimate; MOST],
+    masks: &'a [[[u16; LANES]; LANES]; MOST],
     /// The layers that cover the block, in order.
     of_block: &'a [usize],
     block: u32,
@@ -207,7 +215,7 @@ impl Visit<'_> {
             let layer = &self.layers[at];
             let mut mask = u16::MAX;
             if layer.partial >> self.block & 1 == 1 {
-                mask = layer.masks[self.block as usize % LANES][packet % LANES];
+                mask = self.masks[at % MOST][self.block as usize % LANES][packet % LANES];
                 if mask == 0 {
                     continue;
                 }

@@ -98,6 +98,8 @@ fn layers_are_the_formula_of_each_pixel() {
     let grid = TileGrid::new(64, 64, 1);
     let mut noise = Noise(1);
     let mut sums = LayerCounts::default();
+    // Kept from round to round, as a tile's are for the next one.
+    let mut layers = Layers::default();
     for round in 0..40 {
         let opaque = if round % 2 == 0 { 0xFF00_0000 } else { 0 };
         let texels: Vec<u32> = (0..4096).map(|_| noise.word() | opaque).collect();
@@ -128,11 +130,18 @@ fn layers_are_the_formula_of_each_pixel() {
                 continue;
             }
             let mut stored = texels.clone();
-            let mut layers = Layers::default();
             for (colors, masks) in colors.iter().zip(&masks) {
                 layers.begin(*colors, TILE);
-                for (block, masks) in (0..).zip(masks) {
-                    layers.add_tested(block, masks);
+                for (block, masks) in (0_u16..).zip(masks) {
+                    match noise.word() % 2 {
+                        0 => layers.add_tested(block.into(), masks),
+                        _ => {
+                            let packets = (0..).map(|packet| block * 16 + packet).zip(masks);
+                            for (packet, mask) in packets.filter(|(_, mask)| **mask != 0) {
+                                layers.add_packet(packet, *mask);
+                            }
+                        }
+                    }
                 }
             }
             let stored_lines = stored.as_chunks_mut::<LANES>().0;
