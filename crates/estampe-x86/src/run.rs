@@ -83,8 +83,10 @@ impl Code {
             let mut passes = left / of_pass;
             let pointers = (self.frame.pointers / LINE) as usize;
             let all = pointers..pointers + of_pass * self.frame.packet_lines();
-            let known = begin.pointers(self, run, tracks).filter(|_| packet == 0);
-            if let Some(known) = known {
+            if packet == 0
+                && let Some(known) = begin.pointers(self, run, tracks)
+            {
+                // Those of one packet are the first ones of a pass of several.
                 let len = all.len();
                 lines[all].copy_from_slice(&known[..len]);
             } else if (of_pass, left) == (1, 1) {
