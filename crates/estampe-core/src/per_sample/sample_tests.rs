@@ -180,6 +180,13 @@ impl SampleTests {
         test_stencil(s, face, [lanes, 0], stencil);
     }
 
+    /// Returns true if of samples that fail the depth test each one's stencil value changes as a
+    /// face's [`FaceLanes::count_failing`] says.
+    #[inline(always)]
+    pub(crate) fn failing_counts<S: Lanes>(&self, face: &FaceLanes<S>) -> bool {
+        self.bounds.is_none() && face.passes_always()
+    }
+
     /// Returns true if a sample that passes its depth test changes neither depth nor stencil.
     pub(crate) fn passing_keeps(&self, front: bool) -> bool {
         !self.writes_depth() && self.stencil.is_none_or(|test| test.passing_keeps(front))

@@ -128,7 +128,7 @@ impl<S: Lanes> FaceLanes<S> {
     #[inline(always)]
     pub(crate) fn passes(&self, stored: u8x16<S>) -> u16 {
         // Most tests, and most of all those of shadow volumes.
-        if self.compare == CompareFunction::Always {
+        if self.passes_always() {
             return u16::MAX;
         }
         bits(compare(
@@ -136,6 +136,22 @@ impl<S: Lanes> FaceLanes<S> {
             self.reference,
             stored & self.read_mask,
         ))
+    }
+
+    /// Returns true if every sample passes.
+    #[inline(always)]
+    pub(crate) fn passes_always(&self) -> bool {
+        self.compare == CompareFunction::Always
+    }
+
+    /// Changes the stored values of lanes that pass this test and fail the depth test.
+    #[inline(always)]
+    pub(crate) fn count_failing(&self, s: S, lanes: u16, stored: &mut [u8; LANES]) {
+        let values = u8x16::load_array_ref(s, stored);
+        let new = self.depth_fail.results(s, self.writable, values);
+        mask8x16::from_bitmask(s, u64::from(lanes))
+            .select(new, values)
+            .store_array(stored);
     }
 
     /// The stored values after a test: `failed`, `depth_failed` and `passed` are the lanes of each
@@ -198,10 +214,16 @@ impl<S: Lanes> Update<S> {
         if self.keeps {
             return stored;
         }
+        let new = self.results(s, writable, stored);
+        mask8x16::from_bitmask(s, u64::from(lanes)).select(new, stored)
+    }
+
+    /// The operation's results in all lanes.
+    #[inline(always)]
+    fn results(&self, s: S, writable: u8x16<S>, stored: u8x16<S>) -> u8x16<S> {
         let new = s.saturating_add_u8x16((stored & self.kept) ^ self.flipped, self.up);
         let new = s.saturating_sub_u8x16(new, self.down) + self.step;
-        let new = stored ^ ((stored ^ new) & writable);
-        mask8x16::from_bitmask(s, u64::from(lanes)).select(new, stored)
+        stored ^ ((stored ^ new) & writable)
     }
 }
 

@@ -32,6 +32,8 @@ pub(super) struct WalkScratch {
     /// By edge and packet: the edge's value at the packet's first pixel, without its constants; of
     /// one sample, with it.
     values: [[i32; MAX_PACKETS]; MAX_EDGES],
+    /// By edge and block: such a value at the block's first pixel.
+    blocks: [[i32; LANES]; MAX_EDGES],
     packets: PacketNumbers,
     /// Those of the second class.
     others: PacketNumbers,
@@ -58,8 +60,9 @@ impl PacketNumbers {
     /// Adds some packets of a block.
     #[inline(always)]
     fn add<S: Lanes>(&mut self, s: S, block: usize, packets: u16) {
-        let Some(out) = self.packets[self.len % (MAX_PACKETS + 1)..].first_chunk_mut() else {
-            unreachable!("sixteen packets of each of sixteen blocks");
+        // Of each of sixteen blocks sixteen packets, so that the last one's are listed at 240.
+        let Some(out) = self.packets[self.len % MAX_PACKETS..].first_chunk_mut() else {
+            unreachable!("there is room behind the last packet");
         };
         #[expect(clippy::cast_possible_truncation, reason = "a tile has 256 packets")]
         let first = (block * LANES) as u32;
@@ -93,6 +96,7 @@ impl Default for WalkScratch {
     fn default() -> Self {
         Self {
             values: [[0; MAX_PACKETS]; MAX_EDGES],
+            blocks: [[0; LANES]; MAX_EDGES],
             packets: PacketNumbers::default(),
             others: PacketNumbers::default(),
         }
@@ -164,16 +168,15 @@ impl<const N: usize, const E: usize> TilePolygon<N, E> {
         covered_whole
     }
 
-    /// Lists the packets of the first class that the polygon covers, and gives those of the second,
-    /// of which some may not be covered at all.
+    /// Lists the packets of the first class that the polygon covers. Those of the second are
+    /// [covered](Steps::cover_second) after it.
     #[inline(always)]
-    pub(crate) fn cover_classes<S: Lanes, C: PacketClasses<S>>(
+    pub(crate) fn cover_first<S: Lanes, C: PacketClasses<S>>(
         &self,
         s: S,
         classes: &C,
         first: &mut CoverageList<N>,
-        second: impl FnMut(Covered<N>),
-    ) {
+    ) -> Steps<S, E> {
         let steps = Steps::new(s, self);
         let mut live = self.blocks();
         if self.packets() > PACKETS_OF_BLOCK {
@@ -183,8 +186,7 @@ impl<const N: usize, const E: usize> TilePolygon<N, E> {
         walk.clear();
         steps.list_packets(s, self, live, classes, walk);
         steps.list_covered(s, self, (&walk.values, walk.packets.items()), covered);
-        let others = (&walk.values, walk.others.items());
-        steps.cover_packets(s, self, others, covered.samples, second);
+        steps
     }
 
     /// The blocks that the box touches, one bit each.
@@ -210,7 +212,7 @@ impl<const N: usize> Edge<N> {
 
 /// The values that sixteen lanes add to an edge's value: `a·column + b·row` of each lane, one pixel
 /// apart.
-struct Steps<S: Lanes, const E: usize> {
+pub(crate) struct Steps<S: Lanes, const E: usize> {
     pixel: [i32x16<S>; E],
 }
 
@@ -257,17 +259,18 @@ impl<S: Lanes, const E: usize> Steps<S, E> {
     ) {
         let mut packet = self.pixel;
         let mut best = [0; E];
-        for ((packet, best), edge) in packet.iter_mut().zip(&mut best).zip(&polygon.edges) {
-            *packet <<= 2;
-            *best = edge.extremes(4)[0] - edge.folded();
+        for (number, edge) in polygon.edges.iter().enumerate() {
+            packet[number] = self.pixel[number] << 2;
+            best[number] = edge.extremes(4)[0] - edge.folded();
+            let at_blocks = (self.pixel[number] << 4) + splat(s, edge.folded());
+            at_blocks.store_array(&mut walk.blocks[number]);
         }
         while blocks != 0 {
             let block = blocks.trailing_zeros() as usize % LANES;
             blocks &= blocks - 1;
-            let [x, y] = [LANE_X[block], LANE_Y[block]].map(|at| i32::from(at) * 16);
             let mut outside = splat(s, 0);
-            for (number, edge) in polygon.edges.iter().enumerate() {
-                let value = packet[number] + splat(s, edge.folded() + edge.a * x + edge.b * y);
+            for number in 0..E {
+                let value = packet[number] + splat(s, walk.blocks[number][block]);
                 let values = walk.values[number].as_chunks_mut().0;
                 value.store_array(&mut values[block]);
                 outside |= value + splat(s, best[number]);
@@ -304,6 +307,20 @@ impl<S: Lanes, const E: usize> Steps<S, E> {
             },
         );
         out.len = len;
+    }
+
+    /// Gives the packets of the second class, of which some may not be covered at all.
+    #[inline(always)]
+    pub(crate) fn cover_second<const N: usize>(
+        &self,
+        s: S,
+        polygon: &TilePolygon<N, E>,
+        list: &CoverageList<N>,
+        give: impl FnMut(Covered<N>),
+    ) {
+        let CoverageList { walk, covered } = list;
+        let listed = (&walk.values, walk.others.items());
+        self.cover_packets(s, polygon, listed, covered.samples, give);
     }
 
     /// Covers the listed packets, sample by sample.

@@ -12,21 +12,22 @@
 //!     otherwise                        every sample is tested
 //! ```
 //!
-//! As for [blocks](super::hiz), a plane's extremes over a packet are its values at two corners.
-//! Rounding to fixed point moves a depth by less than two codes; ranges are compared with a margin
-//! of four, in place of the division.
+//! As for [blocks](super::hiz), a plane's extremes over a packet are its values at two corners. They
+//! are sums of three parts, of the triangle, the block and the packet, which are not rounded as a
+//! sample's depth is, so that they are compared with a margin. Rounding to fixed point moves a depth
+//! by less than two codes; there the margin has four more, in place of the division.
 
 use super::compare::{extremes, orders, prefers_less};
 use super::hiz::{HizQuery, corner, starts_of_units};
 use super::sample_tests::SampleTests;
-use crate::bounds::plane::Plane;
-use crate::depth_format::clamp_depth;
-use crate::fragment::interpolate::evaluate;
-use crate::raster::{PacketClasses, packet_origin};
+use crate::fragment::interpolate::PlaneOrigin;
+use crate::raster::PacketClasses;
 use estampe_simd::{LANES, Lanes, SimdBase, f32x16};
 
 /// Blocks of a tile, at most.
 const BLOCKS: usize = 16;
+/// Sixteen roundings, relative to a sum of absolute values.
+const ROUNDINGS: f32 = 16.0 / (1 << 24) as f32;
 
 /// Ranges of the stored depths of a tile's packets.
 #[derive(Debug)]
@@ -87,18 +88,26 @@ impl PacketRanges {
     }
 }
 
+/// The distance by which ranges are compared: a fixed-point format's rounding.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Margin(f32);
+
+impl Margin {
+    pub(crate) fn of(tests: &SampleTests) -> Self {
+        Self(tests.stored.format.step() * 4.0)
+    }
+}
+
 /// A triangle whose packets are compared with the ranges.
 pub(crate) struct PacketQuery<'a, S: Lanes> {
     ranges: &'a PacketRanges,
-    plane: Plane,
-    range: [f32; 2],
-    /// Distances from the plane's origin of the least and of the greatest corner of the packets of
-    /// a block that begins at the window's first pixel: columns, rows.
-    least: [f32x16<S>; 2],
-    greatest: [f32x16<S>; 2],
-    /// The tile's first pixel.
-    tile: [i32; 2],
-    margin: f32,
+    /// What a block adds to depths of the tile's first block.
+    blocks: [f32; BLOCKS],
+    /// Bounds of the depths of the packets of the tile's first block, with every margin.
+    least: f32x16<S>,
+    greatest: f32x16<S>,
+    /// The range that depth is clamped to, with the format's margin.
+    clamp: [f32; 2],
     is_less: bool,
     /// Packets that fail, or pass, change nothing.
     hides_failing: bool,
@@ -111,28 +120,42 @@ impl<'a, S: Lanes> PacketQuery<'a, S> {
         s: S,
         look: &HizQuery<'_, N>,
         ranges: &'a PacketRanges,
+        Margin(margin): Margin,
     ) -> Self {
         let HizQuery { plane, tests, .. } = look;
         let positions = look.samples.subpixels();
         let splat = |value| <f32x16<S> as SimdBase<S>>::splat(s, value);
-        let [columns, rows] = starts_of_units(s, 4);
-        let origin = plane.origin;
+        let PlaneOrigin { x, y } = plane.origin;
+        let (x, y) = (look.tile.x as f32 - x, look.tile.y as f32 - y);
         // Positions are multiples of 1/256 below 2¹⁶: every sum is exact.
-        let from = |least: bool| {
-            [
-                corner(&positions, 0, plane.z.dx, least, 4) - origin.x,
-                corner(&positions, 1, plane.z.dy, least, 4) - origin.y,
-            ]
+        let at = |least: bool| {
+            let x = x + corner(&positions, 0, plane.z.dx, least, 4);
+            let y = y + corner(&positions, 1, plane.z.dy, least, 4);
+            plane.z.origin + (plane.z.dx * x + plane.z.dy * y)
         };
-        let ([least_x, least_y], [greatest_x, greatest_y]) = (from(true), from(false));
+        // In roundings of this sum, a sample's depth is wrong by up to three, a bound by up to ten.
+        let reach = look.tile.side() as f32;
+        let greatest = plane.z.origin.abs()
+            + (plane.z.dx.abs() * (x.abs() + reach) + plane.z.dy.abs() * (y.abs() + reach));
+        let margin_of_sums = margin + greatest * ROUNDINGS;
+        // Bounds of sums that overflow are infinite, and decide nothing.
+        let ([dx, dy], [least, greatest]) = if margin_of_sums < f32::INFINITY {
+            let bounds = [at(true) - margin_of_sums, at(false) + margin_of_sums];
+            ([plane.z.dx, plane.z.dy], bounds)
+        } else {
+            ([0.0; 2], [f32::NEG_INFINITY, f32::INFINITY])
+        };
+        let [columns, rows] = starts_of_units(s, 4);
+        let packets = columns * splat(dx) + rows * splat(dy);
+        let mut blocks = [0.0; BLOCKS];
+        (packets * splat(4.0)).store_array(&mut blocks);
+        let [low, high] = tests.stored.range;
         Self {
             ranges,
-            plane: plane.z,
-            range: tests.stored.range,
-            least: [columns + splat(least_x), rows + splat(least_y)],
-            greatest: [columns + splat(greatest_x), rows + splat(greatest_y)],
-            tile: [look.tile.x, look.tile.y],
-            margin: tests.stored.format.step() * 4.0,
+            blocks,
+            least: packets + splat(least),
+            greatest: packets + splat(greatest),
+            clamp: [low + margin, high - margin],
             is_less: tests.depth.is_none_or(|state| prefers_less(state.compare)),
             hides_failing: tests.early_failure_is_final(),
             hides_passing: look.passes_in_vain,
@@ -145,14 +168,9 @@ impl<S: Lanes> PacketClasses<S> for PacketQuery<'_, S> {
     #[inline(always)]
     fn of_block(&self, s: S, block: usize, packets: u16) -> [u16; 2] {
         let splat = |value| <f32x16<S> as SimdBase<S>>::splat(s, value);
-        #[expect(clippy::cast_possible_truncation, reason = "a tile has sixteen blocks")]
-        let (x, y) = packet_origin((block % BLOCKS * LANES) as u32);
-        let x = splat((self.tile[0] + x) as f32);
-        let y = splat((self.tile[1] + y) as f32);
-        let least = evaluate(s, &self.plane, [self.least[0] + x, self.least[1] + y]);
-        let greatest = evaluate(s, &self.plane, [self.greatest[0] + x, self.greatest[1] + y]);
-        let least = clamp_depth(s, least, self.range) - splat(self.margin);
-        let greatest = clamp_depth(s, greatest, self.range) + splat(self.margin);
+        let of_block = splat(self.blocks[block % BLOCKS]);
+        let least = s.min_f32(self.least + of_block, splat(self.clamp[1]));
+        let greatest = s.max_f32(self.greatest + of_block, splat(self.clamp[0]));
         let stored_least = f32x16::load_array_ref(s, &self.ranges.least[block % BLOCKS]);
         let stored_greatest = f32x16::load_array_ref(s, &self.ranges.greatest[block % BLOCKS]);
         let above = s.bits_of_mask(least.simd_gt(stored_greatest));

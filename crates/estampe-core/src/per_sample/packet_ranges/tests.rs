@@ -1,10 +1,11 @@
 //! Classes of packets against the tests of their samples.
 
 use super::*;
+use crate::bounds::plane::Plane;
 use crate::depth_format::{DepthFormat, StoredDepth};
 use crate::fragment::interpolate::{DepthPlane, PlaneOrigin};
 use crate::per_sample::stencil::StencilTest;
-use crate::raster::{SampleSet, TileShape};
+use crate::raster::{SampleSet, TileShape, packet_origin};
 use estampe_format::depth::FixedDepth;
 use estampe_simd::{Level, dispatch};
 use estampe_types::TextureFormat;
@@ -50,7 +51,7 @@ fn classes<S: Lanes>(
     look: &HizQuery<'_, 1>,
     (ranges, block): (&PacketRanges, usize),
 ) -> [u16; 2] {
-    PacketQuery::new(s, look, ranges).of_block(s, block, u16::MAX)
+    PacketQuery::new(s, look, ranges, Margin::of(look.tests)).of_block(s, block, u16::MAX)
 }
 
 #[test]
@@ -86,6 +87,11 @@ fn a_shadow_volume_counts_where_it_fails_and_changes_nothing_elsewhere() {
     }
 }
 
+/// NaN becomes 0.
+fn clamped(depth: f32) -> f32 {
+    if depth > 0.0 { depth.min(1.0) } else { 0.0 }
+}
+
 /// Of random planes and depths: every sample of a packet that is left out passes, and of one
 /// that fails, fails.
 #[test]
@@ -106,14 +112,18 @@ fn packets_are_decided_as_their_samples_are() {
         CompareFunction::Greater,
         CompareFunction::GreaterEqual,
     ];
-    let mut counts = [0; 3];
-    for round in 0..400 {
+    let mut counts = [[0; 3]; 3];
+    for round in 0..600 {
         let format = formats[round % 3];
         let tests = tests(
             compares[round / 3 % 4],
             StencilOperation::IncrementWrap,
             format,
         );
+        // Planes as most are, those whose sums are rounded far more coarsely than depths are, and
+        // those whose sums overflow.
+        let steepness = round / 36 % 3;
+        let slope = [0.04, 400.0, 3e38][steepness];
         let plane = DepthPlane {
             origin: PlaneOrigin {
                 x: 64.0 + (random() * 64.0).floor(),
@@ -121,11 +131,12 @@ fn packets_are_decided_as_their_samples_are() {
             },
             z: Plane {
                 origin: random(),
-                dx: (random() - 0.5) * 0.04,
-                dy: (random() - 0.5) * 0.04,
+                dx: (random() - 0.5) * slope,
+                dy: (random() - 0.5) * slope,
             },
         };
-        // Depths near the plane's, some of them as near as codes.
+        // Depths near the plane's, some of them as near as codes. Half of the last ones are a
+        // packet's own extremes, which a bound must not be within.
         let spread = [0.1, 1e-3, 1e-6][round / 12 % 3];
         let mut stored = [[0.0; LANES]; 256];
         let mut depths = [[0.0; LANES]; 256];
@@ -137,9 +148,13 @@ fn packets_are_decided_as_their_samples_are() {
                 let y = (TILE.y + y) as f32 + f32::from(estampe_simd::LANE_Y[lane]) + 0.5;
                 let (x, y) = (x - plane.origin.x, y - plane.origin.y);
                 let z = plane.z.origin + (x * plane.z.dx + y * plane.z.dy);
-                depths[lane] = format.stored(z.clamp(0.0, 1.0));
-                let near = z + moved + (random() - 0.5) * spread;
-                stored[lane] = format.stored(near.clamp(0.0, 1.0));
+                depths[lane] = format.stored(clamped(z));
+                let near = clamped(z) + moved + (random() - 0.5) * spread;
+                stored[lane] = format.stored(clamped(near));
+            }
+            if spread < 1e-3 && random() < 0.5 {
+                let extreme: fn(f32, f32) -> f32 = if random() < 0.5 { f32::min } else { f32::max };
+                stored.fill(depths.iter().copied().fold(depths[0], extreme));
             }
         }
         let mut ranges = PacketRanges::default();
@@ -171,10 +186,14 @@ fn packets_are_decided_as_their_samples_are() {
                         assert_eq!(passing, LANES, "{level:?} {round} {packet}");
                     }
                     let kind = 2 * usize::from(bit(tested)) + usize::from(bit(failing));
-                    counts[kind] += 1;
+                    counts[steepness][kind] += 1;
                 }
             }
         }
     }
-    assert!(counts.iter().all(|count| *count > 2000), "{counts:?}");
+    let [usual, steep, overflowing] = counts;
+    assert!(usual.iter().all(|count| *count > 2000), "{counts:?}");
+    assert!(steep.iter().all(|count| *count > 2000), "{counts:?}");
+    // Bounds are infinite: every packet is tested.
+    assert_eq!(overflowing[..2], [0; 2], "{counts:?}");
 }

@@ -11,7 +11,7 @@ use super::rasterize::{Rasterizer, blocks_of};
 use super::writer::{VisibilityTriangle, VisibilityWriter};
 use crate::bounds::primitives::TrianglePacket;
 use crate::fragment::interpolate::DepthPlane;
-use crate::per_sample::packet_ranges::PacketQuery;
+use crate::per_sample::packet_ranges::{Margin, PacketQuery};
 use crate::per_sample::stencil::FaceLanes;
 use crate::raster::triangle::TileTriangle;
 use crate::tile_pass::TileWork;
@@ -44,6 +44,7 @@ impl<const N: usize> Rasterizer<'_, '_, '_, N> {
             return;
         };
         let faces = [test.back().lanes(s), test.front().lanes(s)];
+        let margin = Margin::of(&self.work.plan.tests);
         for lane in Lane::all_of(large) {
             let Some(covering) = self.covering(packet, lane) else {
                 continue;
@@ -54,7 +55,8 @@ impl<const N: usize> Rasterizer<'_, '_, '_, N> {
                 id: first + (lanes & (lane.bit() - 1)).count_ones(),
                 front,
             };
-            self.count_failing(s, &triangle, &covering, &faces[usize::from(front)]);
+            let face = &faces[usize::from(front)];
+            self.count_failing(s, &triangle, &covering, (face, margin));
             self.write_counting(&triangle);
         }
     }
@@ -67,12 +69,12 @@ impl<const N: usize> Rasterizer<'_, '_, '_, N> {
         s: S,
         triangle: &VisibilityTriangle,
         covering: &TileTriangle<N>,
-        face: &FaceLanes<S>,
+        (face, margin): (&FaceLanes<S>, Margin),
     ) {
         let ranges = &mut self.scratch.hiz.packets;
         ranges.refresh(covering.blocks(), self.samples.count(), self.job.depth);
         let look = self.hiz_query(triangle.plane, triangle.front);
-        let query = PacketQuery::new(s, &look, &self.scratch.hiz.packets);
+        let query = PacketQuery::new(s, &look, &self.scratch.hiz.packets, margin);
         let list = &mut self.scratch.visibility.list;
         list.clear();
         let TileWork {
@@ -83,25 +85,41 @@ impl<const N: usize> Rasterizer<'_, '_, '_, N> {
         } = self.work;
         let (depth, stencil) = (&*self.job.depth, &mut *self.job.stencil);
         let (samples, mut packets) = (self.samples.count(), 0);
-        covering.cover_classes(
-            s,
-            &query,
-            list,
-            #[inline(always)]
-            |mut item| {
-                if !is_whole {
-                    item.clip(rect);
-                }
-                packets += u64::from(item.any() != 0);
-                let lines = usize::from(item.packet) * samples..;
-                for (line, &lanes) in lines.zip(&item.masks).take(samples) {
-                    if let Some(stencil) = stencil.get_mut(line) {
-                        let stored = (depth.get(line), stencil);
-                        plan.tests.run_failing(s, lanes, face, stored);
+        let steps = covering.cover_first(s, &query, list);
+        if const { N == 1 } && *is_whole && plan.tests.failing_counts(face) {
+            steps.cover_second(
+                s,
+                covering,
+                list,
+                #[inline(always)]
+                |item| {
+                    packets += u64::from(item.masks[0] != 0);
+                    if let Some(stencil) = stencil.get_mut(usize::from(item.packet)) {
+                        face.count_failing(s, item.masks[0], stencil);
                     }
-                }
-            },
-        );
+                },
+            );
+        } else {
+            steps.cover_second(
+                s,
+                covering,
+                list,
+                #[inline(always)]
+                |mut item| {
+                    if !is_whole {
+                        item.clip(rect);
+                    }
+                    packets += u64::from(item.any() != 0);
+                    let lines = usize::from(item.packet) * samples..;
+                    for (line, &lanes) in lines.zip(&item.masks).take(samples) {
+                        if let Some(stencil) = stencil.get_mut(line) {
+                            let stored = (depth.get(line), stencil);
+                            plan.tests.run_failing(s, lanes, face, stored);
+                        }
+                    }
+                },
+            );
+        }
         if !is_whole {
             list.clip(rect);
         }
