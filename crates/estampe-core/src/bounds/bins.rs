@@ -85,10 +85,14 @@ const _: () = {
     assert!(blocks <= 1 << TileSpan::COUNT_BITS);
 };
 
+/// Memory of a worker for entries as they are written, one chunk after the other.
+#[derive(Debug, Default)]
+pub(crate) struct UnsortedEntries(Vec<(TileSpan, BinEntry)>);
+
 /// Entries sorted by tile.
 #[derive(Debug, Default)]
 pub(crate) struct Bins {
-    /// As written: tiles and their entry, in submission order.
+    /// As written: tiles and their entry, in submission order. Only those that wait are kept.
     unsorted: Vec<(TileSpan, BinEntry)>,
     /// Sorted by tile; the entries of a tile in submission order.
     sorted: Vec<BinEntry>,
@@ -110,6 +114,20 @@ impl Bins {
         self.starts.clear();
         self.mergeable_from = 0;
         self.waits = false;
+    }
+
+    /// Borrows a worker's memory for the entries that are written next.
+    pub(crate) fn borrow(&mut self, UnsortedEntries(memory): &mut UnsortedEntries) {
+        debug_assert!(self.unsorted.is_empty(), "no entry was written");
+        std::mem::swap(&mut self.unsorted, memory);
+    }
+
+    /// Gives a worker's memory back, unless its entries wait.
+    pub(crate) fn give_back(&mut self, UnsortedEntries(memory): &mut UnsortedEntries) {
+        if !self.waits {
+            self.unsorted.clear();
+            std::mem::swap(&mut self.unsorted, memory);
+        }
     }
 
     pub(crate) fn push(&mut self, tiles: TileSpan, entry: BinEntry) {

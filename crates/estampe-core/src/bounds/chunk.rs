@@ -11,9 +11,10 @@
 
 use super::bin_limits::{BinLimits, BinSizes};
 use super::bins::{BinEntry, Bins};
-use super::lines::LinePackets;
+use super::lines::{LinePacket, LinePackets};
 use super::packets::TrianglePackets;
 use super::primitives::{PackedTriangle, PointPrimitive, TrianglePacket};
+use super::slabs::{Expected, SharedSlabs, Slabs};
 use crate::statistics::Statistics;
 use estampe_simd::LANES;
 use std::sync::atomic::AtomicU32;
@@ -50,6 +51,50 @@ struct ChunkPart {
     sub_draw: u32,
 }
 
+/// Memory of the packets of all chunks.
+#[derive(Debug, Default)]
+pub(crate) struct ChunkSlabs {
+    triangles: SharedSlabs<TrianglePacket>,
+    lines: SharedSlabs<LinePacket>,
+}
+
+impl ChunkSlabs {
+    /// Forgets the packets of all chunks.
+    pub(crate) fn clear(&mut self) {
+        self.triangles.get_mut().clear();
+        self.lines.get_mut().clear();
+    }
+
+    /// The packets of chunks that are not added to.
+    pub(crate) fn packets(&mut self) -> ChunkPackets<'_> {
+        ChunkPackets {
+            triangles: self.triangles.get_mut(),
+            lines: self.lines.get_mut(),
+        }
+    }
+}
+
+/// The packets of all chunks.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct ChunkPackets<'a> {
+    triangles: &'a Slabs<TrianglePacket>,
+    lines: &'a Slabs<LinePacket>,
+}
+
+impl<'a> ChunkPackets<'a> {
+    /// The packets of a chunk's triangles.
+    #[inline(always)]
+    pub(crate) fn triangles(self, chunk: &Chunk) -> &'a [TrianglePacket] {
+        chunk.triangles.packets(self.triangles)
+    }
+
+    /// The packets of a chunk's lines.
+    #[inline(always)]
+    pub(crate) fn lines(self, chunk: &Chunk) -> &'a [LinePacket] {
+        chunk.lines.packets(self.lines)
+    }
+}
+
 /// Primitives of one or several sub-draws, set up and binned.
 #[derive(Debug, Default)]
 pub(crate) struct Chunk {
@@ -71,18 +116,25 @@ pub(crate) struct Chunk {
 }
 
 impl Chunk {
-    /// Forgets the contents and keeps the memory.
-    pub(crate) fn clear(&mut self) {
+    /// Forgets the contents, keeps the memory, and borrows more for packets of triangles and of
+    /// lines.
+    pub(crate) fn open(&mut self, slabs: &ChunkSlabs, [triangles, lines]: [Expected; 2]) {
         self.runs.clear();
         self.parts.clear();
-        self.triangles.clear();
+        self.triangles.open(&slabs.triangles, triangles);
         self.one_by_one.clear();
         self.rectangles.clear();
-        self.lines.clear();
+        self.lines.open(&slabs.lines, lines);
         self.points.clear();
         self.clipped_varyings.clear();
         self.bins.clear();
         self.statistics = Statistics::default();
+    }
+
+    /// Gives back what was borrowed.
+    pub(crate) fn close(&mut self, slabs: &ChunkSlabs) {
+        self.triangles.close(&slabs.triangles);
+        self.lines.close(&slabs.lines);
     }
 
     /// Sorts the bins, if that takes little memory, notes the tiles that the chunk reaches in a

@@ -5,6 +5,7 @@
 
 use super::packets::StalePackets;
 use super::primitives::{FlatVertices, VertexRef, WindowVertex};
+use super::slabs::{Expected, SharedSlabs, Slabs};
 use estampe_simd::{Bytes, LANES, Lane, Lanes, Select, SimdBase, f32x16, i32x16, u32x16};
 
 /// A line, from its first to its second end.
@@ -207,23 +208,26 @@ impl LinePackets {
         self.packets.last_mut()
     }
 
-    /// See [`StalePackets::expect`].
-    pub(crate) fn expect(&mut self, most: usize) {
-        self.packets.expect(most);
-    }
-
-    /// Forgets the packets and keeps the memory.
-    pub(crate) fn clear(&mut self) {
-        self.packets.clear();
+    /// See [`StalePackets::open`].
+    pub(crate) fn open(&mut self, slabs: &SharedSlabs<LinePacket>, expected: Expected) {
+        self.packets.open(slabs, expected);
         self.used = LANES;
     }
-}
 
-impl std::ops::Deref for LinePackets {
-    type Target = [LinePacket];
+    /// See [`StalePackets::close`].
+    pub(crate) fn close(&mut self, slabs: &SharedSlabs<LinePacket>) {
+        self.packets.close(slabs);
+    }
 
+    /// The number of packets.
     #[inline(always)]
-    fn deref(&self) -> &[LinePacket] {
-        &self.packets
+    pub(crate) fn len(&self) -> usize {
+        self.packets.len()
+    }
+
+    /// See [`StalePackets::packets`].
+    #[inline(always)]
+    pub(crate) fn packets<'s>(&self, slabs: &'s Slabs<LinePacket>) -> &'s [LinePacket] {
+        self.packets.packets(slabs)
     }
 }

@@ -23,6 +23,8 @@ pub(crate) mod primitives;
 
 pub(crate) mod lines;
 
+pub(crate) mod slabs;
+
 pub(crate) mod packets;
 
 pub(crate) mod triangle_edges;

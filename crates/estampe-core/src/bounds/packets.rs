@@ -4,41 +4,60 @@
 //! writing it.
 
 use super::primitives::TrianglePacket;
+use super::slabs::{Expected, LentSlab, Place, SharedSlabs, Slabs};
 
-/// Packets that are written over what they held before.
+/// Packets of a chunk that are written over what their memory held before.
 #[derive(Debug)]
 pub(crate) struct StalePackets<P> {
-    memory: Vec<P>,
+    /// While packets are added: their memory.
+    slab: LentSlab<P>,
+    /// After that: where they are.
+    place: Place,
     len: usize,
-    /// The number of packets if no primitive is culled.
-    most: usize,
+    /// The number of packets up to the last that is more than a number.
+    written: usize,
 }
 
 impl<P> Default for StalePackets<P> {
     fn default() -> Self {
         Self {
-            memory: Vec::new(),
+            slab: LentSlab::default(),
+            place: Place::default(),
             len: 0,
-            most: 0,
+            written: 0,
         }
     }
 }
 
 impl<P: Default> StalePackets<P> {
+    /// Forgets the packets, and borrows memory for others.
+    pub(crate) fn open(&mut self, slabs: &SharedSlabs<P>, expected: Expected) {
+        (self.len, self.written, self.place) = (0, 0, Place::default());
+        self.slab = slabs.lend(expected);
+    }
+
+    /// Gives the memory back.
+    pub(crate) fn close(&mut self, slabs: &SharedSlabs<P>) {
+        let slab = std::mem::take(&mut self.slab);
+        self.place = slabs.take_back(slab, self.written);
+    }
+
     /// Adds a packet whose contents are stale: the caller writes every field that is read.
     #[inline(always)]
     pub(crate) fn push(&mut self) -> &mut P {
-        if self.len >= self.memory.len() {
+        let at = self.slab.first + self.len;
+        if at >= self.slab.memory.len() {
             self.add_memory();
         }
         self.len += 1;
-        &mut self.memory[self.len - 1]
+        self.written = self.len;
+        &mut self.slab.memory[at]
     }
 
     /// The memory of the packet that is added next, if it was taken before.
     #[inline(always)]
     pub(crate) fn upcoming(&self) -> Option<&P> {
-        self.memory.get(self.len)
+        self.slab.memory.get(self.slab.first + self.len)
     }
 
     /// The number of packets.
@@ -53,44 +72,39 @@ impl<P: Default> StalePackets<P> {
         self.len += 1;
     }
 
-    /// The last packet.
+    /// The last packet, while packets are added.
+    #[inline(always)]
+    pub(crate) fn last(&self) -> Option<&P> {
+        self.slab
+            .memory
+            .get(self.slab.first + self.len.checked_sub(1)?)
+    }
+
+    /// The last packet, while packets are added.
     #[inline(always)]
     pub(crate) fn last_mut(&mut self) -> Option<&mut P> {
-        self.memory.get_mut(self.len.checked_sub(1)?)
+        let last = self.slab.first + self.len.checked_sub(1)?;
+        self.slab.memory.get_mut(last)
     }
 
     /// Removes the last packet.
     #[inline(always)]
     pub(crate) fn pop(&mut self) {
         self.len = self.len.saturating_sub(1);
+        self.written = self.written.min(self.len);
     }
 
-    /// Announces at most so many packets: memory is then taken at once, with the first of them.
-    /// Lists that double are copied to new memory each time, as packets are aligned to lines of the
-    /// cache, and the kernel clears the old as well as the new: a third of a mesh's memory.
-    pub(crate) fn expect(&mut self, most: usize) {
-        self.most = most;
-    }
-
+    /// A slab has room for all packets that are expected; clipping may add more.
     #[cold]
     fn add_memory(&mut self) {
-        let missing = self.most.saturating_sub(self.memory.len());
-        self.memory.reserve_exact(missing);
-        self.memory.resize_with(self.len + 1, P::default);
+        let needed = self.slab.first + self.len + 1;
+        self.slab.memory.resize_with(needed, P::default);
     }
 
-    /// Forgets the packets and keeps the memory.
-    pub(crate) fn clear(&mut self) {
-        (self.len, self.most) = (0, 0);
-    }
-}
-
-impl<P> std::ops::Deref for StalePackets<P> {
-    type Target = [P];
-
+    /// All packets, after they were added.
     #[inline(always)]
-    fn deref(&self) -> &[P] {
-        &self.memory[..self.len.min(self.memory.len())]
+    pub(crate) fn packets<'s>(&self, slabs: &'s Slabs<P>) -> &'s [P] {
+        slabs.packets(self.place)
     }
 }
 
@@ -135,32 +149,29 @@ impl TrianglePackets {
         self.kept.len()
     }
 
-    /// The last packet, and its number.
+    /// The last packet, and its number, while packets are added.
     #[inline(always)]
     pub(crate) fn last(&self) -> Option<(&TrianglePacket, usize)> {
         let number = self.len().checked_sub(1)?;
         if self.is_last_passing {
             return Some((&self.passing, number));
         }
-        self.kept.get(number).map(|packet| (packet, number))
+        self.kept.last().map(|packet| (packet, number))
     }
 
-    /// See [`StalePackets::expect`].
-    pub(crate) fn expect(&mut self, most: usize) {
-        self.kept.expect(most);
+    /// See [`StalePackets::open`].
+    pub(crate) fn open(&mut self, slabs: &SharedSlabs<TrianglePacket>, expected: Expected) {
+        self.kept.open(slabs, expected);
     }
 
-    /// Forgets the packets and keeps the memory.
-    pub(crate) fn clear(&mut self) {
-        self.kept.clear();
+    /// See [`StalePackets::close`].
+    pub(crate) fn close(&mut self, slabs: &SharedSlabs<TrianglePacket>) {
+        self.kept.close(slabs);
     }
-}
 
-impl std::ops::Deref for TrianglePackets {
-    type Target = [TrianglePacket];
-
+    /// See [`StalePackets::packets`].
     #[inline(always)]
-    fn deref(&self) -> &[TrianglePacket] {
-        &self.kept
+    pub(crate) fn packets<'s>(&self, slabs: &'s Slabs<TrianglePacket>) -> &'s [TrianglePacket] {
+        self.kept.packets(slabs)
     }
 }

@@ -4,6 +4,7 @@ use super::vertex_runs::{VertexJobs, VertexRuns};
 use super::{Context, Memory};
 use crate::bounds::bin_limits::BinSizes;
 use crate::bounds::chunk::Chunk;
+use crate::bounds::slabs::Expected;
 use crate::geometry::chunk::{ChunkScratch, Neighbours, add_part};
 use crate::geometry::shading::shade;
 use crate::plan::chunk_plan::{ChunkPart, VERTEX_CHUNK, part_size};
@@ -105,12 +106,17 @@ impl Context {
         }));
         let vertices = &memory.vertices;
         let (level, limits) = (self.level, self.bin_limits);
+        let slabs = &memory.chunk_slabs;
+        let chunks_of_thread = count.div_ceil(self.executor.threads());
         let costs = memory.tile_costs.entries();
         let build = |job: &mut ChunkJob<'_>, scratch: &mut ChunkScratch| {
-            job.chunk.clear();
-            let [triangles, lines] = batch.packets(job.parts);
-            job.chunk.triangles.expect(triangles);
-            job.chunk.lines.expect(lines);
+            let expected = batch.packets(job.parts).map(|most| Expected {
+                most,
+                // Chunks are about as large as one another.
+                share: most * chunks_of_thread,
+            });
+            job.chunk.open(slabs, expected);
+            job.chunk.bins.borrow(&mut scratch.entries);
             let mut joins_last = false;
             for (at, part) in job.parts.iter().enumerate() {
                 let sub_draw = &batch.sub_draws[part.sub_draw as usize];
@@ -129,7 +135,10 @@ impl Context {
                 joins_last = joins_next;
             }
             scratch.statistics += std::mem::take(&mut job.chunk.statistics);
-            job.chunk.sort_bins(limits, (job.reached, costs))
+            let sizes = job.chunk.sort_bins(limits, (job.reached, costs));
+            job.chunk.bins.give_back(&mut scratch.entries);
+            job.chunk.close(slabs);
+            sizes
         };
         let built = Mutex::new(Built::default());
         self.executor

@@ -6,7 +6,7 @@ mod vertex_runs;
 
 use crate::attachment::RenderTarget;
 use crate::bounds::bin_limits::{BinLimits, BinSizes};
-use crate::bounds::chunk::Chunk;
+use crate::bounds::chunk::{Chunk, ChunkSlabs};
 use crate::bounds::chunk_index::ChunkIndex;
 use crate::bounds::tile_costs::TileCosts;
 use crate::commands::{Discards, Draw, RenderPass};
@@ -50,6 +50,7 @@ pub(crate) struct Memory {
     vertices: ShadedVertices,
     chunk_plan: ChunkPlan,
     chunks: Vec<Chunk>,
+    chunk_slabs: ChunkSlabs,
     chunk_index: ChunkIndex,
     tile_costs: TileCosts,
     shading: Vec<Mutex<ShadingScratch>>,
@@ -63,6 +64,7 @@ impl Memory {
     /// Begins the chunks of a batch, which so many threads draw in so many tiles.
     fn begin_chunks(&mut self, tiles: usize, threads: usize) -> BatchChunks {
         self.chunk_index.begin(tiles);
+        self.chunk_slabs.clear();
         self.tile_costs.begin(tiles, threads);
         BatchChunks::default()
     }

@@ -102,6 +102,7 @@ impl Context {
             target: PixelRect::of_target(None, size.width, size.height),
             plans: &plans,
             chunks: &[],
+            packets: memory.chunk_slabs.packets(),
             chunk_index: &memory.chunk_index,
             clear: *clear,
             samples: facts.samples,

@@ -8,6 +8,7 @@ use super::lines::LineWalk;
 use super::run::RunWork;
 use super::setup::{Setup, SetupScratch};
 use super::{filled, lines, points, polygon_mode};
+use crate::bounds::bins::UnsortedEntries;
 use crate::bounds::chunk::Chunk;
 use crate::pipeline::primitive_kind::PrimitiveKind;
 use crate::statistics::Statistics;
@@ -20,6 +21,8 @@ pub(crate) struct ChunkScratch {
     gathered: Gathered,
     setup: SetupScratch,
     clip: ClipDetour,
+    /// Memory that each chunk borrows.
+    pub(crate) entries: UnsortedEntries,
     /// Counts of the chunks that the worker has made since they were last taken.
     pub(crate) statistics: Statistics,
 }

@@ -24,9 +24,11 @@ pub(crate) use worker_tile::TileWords;
 use crate::attachment::resolve::ResolveJob;
 use crate::attachment::{RowsPlace, StoredBounds, StoredRows};
 use crate::bounds::bins::BinEntry;
-use crate::bounds::chunk::Chunk;
+use crate::bounds::chunk::{Chunk, ChunkPackets};
 use crate::bounds::chunk_index::ChunkIndex;
+use crate::bounds::lines::LinePacket;
 use crate::bounds::pixel_rect::PixelRect;
+use crate::bounds::primitives::TrianglePacket;
 use crate::commands::{Discards, OcclusionQueries};
 use crate::fragment::interpolate::VaryingSource;
 use crate::fragment::queue::{FragmentQueue, ShadedBatch};
@@ -62,6 +64,8 @@ pub(crate) struct TilePass<'a> {
     /// By sub-draw.
     pub(crate) plans: &'a Segments<TilePlan<'a>>,
     pub(crate) chunks: &'a [Chunk],
+    /// The packets of these chunks.
+    pub(crate) packets: ChunkPackets<'a>,
     /// The chunks that reach each tile.
     pub(crate) chunk_index: &'a ChunkIndex,
     /// The values that attachments are cleared to first.
@@ -350,6 +354,8 @@ fn write_colors(
 struct TileWork<'a> {
     level: Level,
     chunk: &'a Chunk,
+    triangles: &'a [TrianglePacket],
+    lines: &'a [LinePacket],
     /// The chunk's number in the pass.
     number: u32,
     /// The number of its first sub-draw in the pass.
@@ -376,6 +382,8 @@ impl<'a> TileWork<'a> {
         Self {
             level: pass.level,
             chunk,
+            triangles: pass.packets.triangles(chunk),
+            lines: pass.packets.lines(chunk),
             number,
             sub_draw,
             plan,

@@ -4,6 +4,8 @@ use super::{TilePass, varyings_of};
 use crate::bounds::bins::BinEntry;
 use crate::bounds::chunk::{Chunk, RunsOfTile};
 use crate::bounds::chunk_index::ChunksOfTile;
+use crate::bounds::lines::LinePacket;
+use crate::bounds::primitives::TrianglePacket;
 use crate::fragment::interpolate::VaryingSource;
 use crate::tile_path::TilePath;
 
@@ -22,6 +24,8 @@ pub(super) struct UpcomingRuns<'a> {
 #[derive(Debug, Clone)]
 pub(super) struct UpcomingRun<'a> {
     pub(super) chunk: &'a Chunk,
+    pub(super) triangles: &'a [TrianglePacket],
+    pub(super) lines: &'a [LinePacket],
     /// The entries that were not taken yet.
     entries: &'a [BinEntry],
     pub(super) path: TilePath,
@@ -61,6 +65,8 @@ impl<'a> UpcomingRuns<'a> {
                 if is_wanted(plan.path) {
                     return Some(UpcomingRun {
                         chunk,
+                        triangles: pass.packets.triangles(chunk),
+                        lines: pass.packets.lines(chunk),
                         entries,
                         path: plan.path,
                         source: varyings_of(chunk, plan),

@@ -12,10 +12,10 @@
 //!     otherwise                        every sample is tested
 //! ```
 //!
-//! As for [blocks](super::hiz), a plane's extremes over a packet are its values at two corners. They
-//! are sums of three parts, of the triangle, the block and the packet, which are not rounded as a
-//! sample's depth is, so that they are compared with a margin. Rounding to fixed point moves a depth
-//! by less than two codes; there the margin has four more, in place of the division.
+//! As for [blocks](super::hiz), a plane's extremes over a packet are its values at two corners.
+//! They are sums of three parts, of the triangle, the block and the packet, which are not rounded
+//! as a sample's depth is, so that they are compared with a margin. Rounding to fixed point moves a
+//! depth by less than two codes; there the margin has four more, in place of the division.
 
 use super::compare::{extremes, orders, prefers_less};
 use super::hiz::{HizQuery, corner, starts_of_units};

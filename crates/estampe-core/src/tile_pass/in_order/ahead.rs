@@ -170,7 +170,7 @@ impl<'a> Upcoming<'a> {
                 }
                 BinEntry::Lines { packet, lanes } => {
                     self.taken += entry.count() as usize;
-                    let packet = &run.chunk.lines[packet as usize];
+                    let packet = &run.lines[packet as usize];
                     return Some((Primitive::Lines(packet, lanes), run.source));
                 }
                 BinEntry::Point(_) => {}

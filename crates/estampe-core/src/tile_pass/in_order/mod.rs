@@ -141,7 +141,7 @@ pub(super) fn draw<const N: usize>(
         match *entry {
             BinEntry::Triangles { packet, lanes } if is_scalar => {
                 for lane in Lane::all_of(lanes) {
-                    let packet = &work.chunk.triangles[packet as usize];
+                    let packet = &work.triangles[packet as usize];
                     let triangle = PackedTriangle::of_lane(packet, lane.get());
                     drawing.batch(&mut Batch::of(&triangle));
                 }
@@ -163,7 +163,7 @@ pub(super) fn draw<const N: usize>(
             }
             BinEntry::Lines { packet, lanes } => {
                 drawing.step(entry.count() as usize);
-                drawing.add_lines(&mut lines, &work.chunk.lines[packet as usize], lanes);
+                drawing.add_lines(&mut lines, &work.lines[packet as usize], lanes);
             }
             BinEntry::Point(number) => drawing.point(&work.chunk.points[number as usize]),
         }
