@@ -12,8 +12,8 @@
 use super::bin_limits::{BinLimits, BinSizes};
 use super::bins::{BinEntry, Bins};
 use super::lines::{LinePacket, LinePackets};
-use super::packets::TrianglePackets;
-use super::primitives::{PackedTriangle, PointPrimitive, TrianglePacket};
+use super::packets::{StalePackets, TrianglePackets};
+use super::primitives::{PackedTriangle, PackedTriangles, PointPrimitive, TrianglePacket};
 use super::slabs::{Expected, SharedSlabs, Slabs};
 use crate::statistics::Statistics;
 use estampe_simd::LANES;
@@ -55,6 +55,7 @@ struct ChunkPart {
 #[derive(Debug, Default)]
 pub(crate) struct ChunkSlabs {
     triangles: SharedSlabs<TrianglePacket>,
+    one_by_one: SharedSlabs<PackedTriangles>,
     lines: SharedSlabs<LinePacket>,
 }
 
@@ -62,6 +63,7 @@ impl ChunkSlabs {
     /// Forgets the packets of all chunks.
     pub(crate) fn clear(&mut self) {
         self.triangles.get_mut().clear();
+        self.one_by_one.get_mut().clear();
         self.lines.get_mut().clear();
     }
 
@@ -69,6 +71,7 @@ impl ChunkSlabs {
     pub(crate) fn packets(&mut self) -> ChunkPackets<'_> {
         ChunkPackets {
             triangles: self.triangles.get_mut(),
+            one_by_one: self.one_by_one.get_mut(),
             lines: self.lines.get_mut(),
         }
     }
@@ -78,20 +81,47 @@ impl ChunkSlabs {
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct ChunkPackets<'a> {
     triangles: &'a Slabs<TrianglePacket>,
+    one_by_one: &'a Slabs<PackedTriangles>,
     lines: &'a Slabs<LinePacket>,
 }
 
 impl<'a> ChunkPackets<'a> {
-    /// The packets of a chunk's triangles.
+    /// The packets of a chunk.
     #[inline(always)]
-    pub(crate) fn triangles(self, chunk: &Chunk) -> &'a [TrianglePacket] {
-        chunk.triangles.packets(self.triangles)
+    pub(crate) fn of(self, chunk: &Chunk) -> Packets<'a> {
+        Packets {
+            triangles: chunk.triangles.packets(self.triangles),
+            one_by_one: chunk.one_by_one.packets(self.one_by_one),
+            lines: chunk.lines.packets(self.lines),
+        }
     }
+}
 
-    /// The packets of a chunk's lines.
-    #[inline(always)]
-    pub(crate) fn lines(self, chunk: &Chunk) -> &'a [LinePacket] {
-        chunk.lines.packets(self.lines)
+/// The packets of a chunk.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Packets<'a> {
+    pub(crate) triangles: &'a [TrianglePacket],
+    /// Of the packets that were [taken apart](Chunk::take_apart_last); of others anything.
+    pub(crate) one_by_one: &'a [PackedTriangles],
+    pub(crate) lines: &'a [LinePacket],
+}
+
+/// A number of packets of each kind.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct PacketCounts<T> {
+    pub(crate) triangles: T,
+    /// Of those triangles that are taken apart, with all that are numbered before them.
+    pub(crate) one_by_one: T,
+    pub(crate) lines: T,
+}
+
+impl<T> PacketCounts<T> {
+    pub(crate) fn map<R>(self, each: impl Fn(T) -> R) -> PacketCounts<R> {
+        PacketCounts {
+            triangles: each(self.triangles),
+            one_by_one: each(self.one_by_one),
+            lines: each(self.lines),
+        }
     }
 }
 
@@ -102,8 +132,8 @@ pub(crate) struct Chunk {
     parts: Vec<ChunkPart>,
     pub(crate) triangles: TrianglePackets,
     /// The triangles of the packets up to the last one whose triangles are drawn one by one, in
-    /// order: sixteen a packet, of other packets anything.
-    one_by_one: Vec<PackedTriangle>,
+    /// order; of other packets anything.
+    one_by_one: StalePackets<PackedTriangles>,
     /// By packet: those of these that make a rectangle with the next one.
     rectangles: Vec<u16>,
     pub(crate) lines: LinePackets,
@@ -116,13 +146,17 @@ pub(crate) struct Chunk {
 }
 
 impl Chunk {
-    /// Forgets the contents, keeps the memory, and borrows more for packets of triangles and of
-    /// lines.
-    pub(crate) fn open(&mut self, slabs: &ChunkSlabs, [triangles, lines]: [Expected; 2]) {
+    /// Forgets the contents, keeps the memory, and borrows more for packets.
+    pub(crate) fn open(&mut self, slabs: &ChunkSlabs, expected: PacketCounts<Expected>) {
+        let PacketCounts {
+            triangles,
+            one_by_one,
+            lines,
+        } = expected;
         self.runs.clear();
         self.parts.clear();
         self.triangles.open(&slabs.triangles, triangles);
-        self.one_by_one.clear();
+        self.one_by_one.open(&slabs.one_by_one, one_by_one);
         self.rectangles.clear();
         self.lines.open(&slabs.lines, lines);
         self.points.clear();
@@ -134,6 +168,7 @@ impl Chunk {
     /// Gives back what was borrowed.
     pub(crate) fn close(&mut self, slabs: &ChunkSlabs) {
         self.triangles.close(&slabs.triangles);
+        self.one_by_one.close(&slabs.one_by_one);
         self.lines.close(&slabs.lines);
     }
 
@@ -167,10 +202,10 @@ impl Chunk {
         let Some((packet, number)) = self.triangles.last() else {
             return;
         };
-        let nothing = PackedTriangle::of_lane(&TrianglePacket::EMPTY, 0);
-        self.one_by_one.resize(number * LANES, nothing);
-        let lanes = (0..LANES).map(|lane| PackedTriangle::of_lane(packet, lane));
-        self.one_by_one.extend(lanes);
+        let PackedTriangles(triangles) = self.one_by_one.push_as(number);
+        for (lane, triangle) in triangles.iter_mut().enumerate() {
+            *triangle = PackedTriangle::of_lane(packet, lane);
+        }
         self.rectangles.resize(number, 0);
         self.rectangles.push(rectangles);
     }
@@ -180,13 +215,6 @@ impl Chunk {
     #[inline(always)]
     pub(crate) fn rectangles(&self, packet: u32) -> u16 {
         self.rectangles[packet as usize]
-    }
-
-    /// The triangles of a packet that was [taken apart](Chunk::take_apart_last).
-    #[inline(always)]
-    pub(crate) fn taken_apart(&self, packet: u32) -> &[PackedTriangle; LANES] {
-        let triangles = self.one_by_one.as_chunks().0;
-        &triangles[packet as usize]
     }
 
     /// Begins a run with its first sub-draw.

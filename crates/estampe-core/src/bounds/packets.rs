@@ -66,6 +66,15 @@ impl<P: Default> StalePackets<P> {
         self.len
     }
 
+    /// Adds a packet as [`StalePackets::push`] whose number is `number`, behind any that are
+    /// numbers and nothing else.
+    #[inline(always)]
+    pub(crate) fn push_as(&mut self, number: usize) -> &mut P {
+        debug_assert!(self.len <= number, "packets come in order");
+        self.len = number;
+        self.push()
+    }
+
     /// Adds a packet that has a number and nothing else.
     #[inline(always)]
     fn push_number(&mut self) {

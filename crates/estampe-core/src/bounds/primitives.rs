@@ -159,6 +159,16 @@ pub(crate) struct PackedTriangle {
 
 const _: () = assert!(size_of::<PackedTriangle>() == 64);
 
+/// The triangles of a packet's lanes.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct PackedTriangles(pub(crate) [PackedTriangle; LANES]);
+
+impl Default for PackedTriangles {
+    fn default() -> Self {
+        Self([PackedTriangle::of_lane(&TrianglePacket::EMPTY, 0); LANES])
+    }
+}
+
 impl PackedTriangle {
     /// The bit that tells triangles that face the viewer.
     const FRONT: u32 = 1 << 31;

@@ -5,6 +5,7 @@ use super::draw_state::DrawState;
 use super::sub_draw::{ListedVertices, SubDraw};
 use super::tile_plan::{TargetFacts, TilePlan, TileState};
 use crate::attachment::RenderTarget;
+use crate::bounds::chunk::PacketCounts;
 use crate::bounds::chunk::number;
 use crate::commands::Draw;
 use crate::geometry::plan::GeometryPlan;
@@ -217,20 +218,25 @@ impl<'a> DrawBatch<'a> {
             && TilePath::choose(a.draw.pipeline, &facts).joins_draws()
     }
 
-    /// The packets of triangles and of lines of a chunk, if none is culled.
-    pub(crate) fn packets(&self, parts: &[ChunkPart]) -> [usize; 2] {
-        let (mut triangles, mut lines) = (0, 0);
+    /// The packets of a chunk, if none is culled.
+    pub(crate) fn packets(&self, parts: &[ChunkPart]) -> PacketCounts<usize> {
+        let mut counts = PacketCounts::default();
         for part in parts {
             let [from, to] = part.primitives;
             let packets = ((to - from) as usize).div_ceil(LANES);
             let plan = self.plan(&self.sub_draws[part.sub_draw as usize]);
             match plan.kind {
-                PrimitiveKind::Triangles if plan.fills_triangles() => triangles += packets,
-                PrimitiveKind::Lines => lines += packets,
+                PrimitiveKind::Triangles if plan.fills_triangles() => {
+                    counts.triangles += packets;
+                    if plan.draws_one_by_one {
+                        counts.one_by_one = counts.triangles;
+                    }
+                }
+                PrimitiveKind::Lines => counts.lines += packets,
                 PrimitiveKind::Triangles | PrimitiveKind::Points => {}
             }
         }
-        [triangles, lines]
+        counts
     }
 
     /// Resolves the states that tiles read.

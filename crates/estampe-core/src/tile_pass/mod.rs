@@ -24,11 +24,9 @@ pub(crate) use worker_tile::TileWords;
 use crate::attachment::resolve::ResolveJob;
 use crate::attachment::{RowsPlace, StoredBounds, StoredRows};
 use crate::bounds::bins::BinEntry;
-use crate::bounds::chunk::{Chunk, ChunkPackets};
+use crate::bounds::chunk::{Chunk, ChunkPackets, Packets};
 use crate::bounds::chunk_index::ChunkIndex;
-use crate::bounds::lines::LinePacket;
 use crate::bounds::pixel_rect::PixelRect;
-use crate::bounds::primitives::TrianglePacket;
 use crate::commands::{Discards, OcclusionQueries};
 use crate::fragment::interpolate::VaryingSource;
 use crate::fragment::queue::{FragmentQueue, ShadedBatch};
@@ -354,8 +352,7 @@ fn write_colors(
 struct TileWork<'a> {
     level: Level,
     chunk: &'a Chunk,
-    triangles: &'a [TrianglePacket],
-    lines: &'a [LinePacket],
+    packets: Packets<'a>,
     /// The chunk's number in the pass.
     number: u32,
     /// The number of its first sub-draw in the pass.
@@ -382,8 +379,7 @@ impl<'a> TileWork<'a> {
         Self {
             level: pass.level,
             chunk,
-            triangles: pass.packets.triangles(chunk),
-            lines: pass.packets.lines(chunk),
+            packets: pass.packets.of(chunk),
             number,
             sub_draw,
             plan,

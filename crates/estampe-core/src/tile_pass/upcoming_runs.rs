@@ -2,10 +2,8 @@
 
 use super::{TilePass, varyings_of};
 use crate::bounds::bins::BinEntry;
-use crate::bounds::chunk::{Chunk, RunsOfTile};
+use crate::bounds::chunk::{Chunk, Packets, RunsOfTile};
 use crate::bounds::chunk_index::ChunksOfTile;
-use crate::bounds::lines::LinePacket;
-use crate::bounds::primitives::TrianglePacket;
 use crate::fragment::interpolate::VaryingSource;
 use crate::tile_path::TilePath;
 
@@ -23,9 +21,7 @@ pub(super) struct UpcomingRuns<'a> {
 /// A run that comes.
 #[derive(Debug, Clone)]
 pub(super) struct UpcomingRun<'a> {
-    pub(super) chunk: &'a Chunk,
-    pub(super) triangles: &'a [TrianglePacket],
-    pub(super) lines: &'a [LinePacket],
+    pub(super) packets: Packets<'a>,
     /// The entries that were not taken yet.
     entries: &'a [BinEntry],
     pub(super) path: TilePath,
@@ -64,9 +60,7 @@ impl<'a> UpcomingRuns<'a> {
                 let plan = &pass.plans[sub_draw as usize];
                 if is_wanted(plan.path) {
                     return Some(UpcomingRun {
-                        chunk,
-                        triangles: pass.packets.triangles(chunk),
-                        lines: pass.packets.lines(chunk),
+                        packets: pass.packets.of(chunk),
                         entries,
                         path: plan.path,
                         source: varyings_of(chunk, plan),

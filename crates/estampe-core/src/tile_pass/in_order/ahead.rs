@@ -170,7 +170,7 @@ impl<'a> Upcoming<'a> {
                 }
                 BinEntry::Lines { packet, lanes } => {
                     self.taken += entry.count() as usize;
-                    let packet = &run.lines[packet as usize];
+                    let packet = &run.packets.lines[packet as usize];
                     return Some((Primitive::Lines(packet, lanes), run.source));
                 }
                 BinEntry::Point(_) => {}
@@ -180,7 +180,7 @@ impl<'a> Upcoming<'a> {
         self.lanes &= self.lanes - 1;
         self.taken += 1;
         let run = self.run.as_ref()?;
-        let triangle = &run.chunk.taken_apart(self.packet)[lane.get()];
+        let triangle = &run.packets.one_by_one[self.packet as usize].0[lane.get()];
         Some((Primitive::Triangle(triangle), run.source))
     }
 }

@@ -46,7 +46,7 @@ mod triangle;
 use super::fragments::Fragments;
 use super::{TileJob, TilePass, TileScratch, TileWork};
 use crate::bounds::bins::BinEntry;
-use crate::bounds::primitives::PackedTriangle;
+use crate::bounds::primitives::{PackedTriangle, PackedTriangles};
 use crate::fragment::interpolate::{LineInterpolant, VaryingPlanes, VaryingSource};
 use crate::fragment::last_packet::LastPacket;
 use crate::fragment::queue::{Survivors, packets_of_call};
@@ -141,13 +141,13 @@ pub(super) fn draw<const N: usize>(
         match *entry {
             BinEntry::Triangles { packet, lanes } if is_scalar => {
                 for lane in Lane::all_of(lanes) {
-                    let packet = &work.triangles[packet as usize];
+                    let packet = &work.packets.triangles[packet as usize];
                     let triangle = PackedTriangle::of_lane(packet, lane.get());
                     drawing.batch(&mut Batch::of(&triangle));
                 }
             }
             BinEntry::Triangles { packet, lanes } => {
-                let triangles = work.chunk.taken_apart(packet);
+                let PackedTriangles(triangles) = &work.packets.one_by_one[packet as usize];
                 let pairs = work.chunk.rectangles(packet);
                 rectangles += u64::from((pairs & lanes).count_ones());
                 for lane in Lane::all_of(lanes) {
@@ -163,7 +163,7 @@ pub(super) fn draw<const N: usize>(
             }
             BinEntry::Lines { packet, lanes } => {
                 drawing.step(entry.count() as usize);
-                drawing.add_lines(&mut lines, &work.lines[packet as usize], lanes);
+                drawing.add_lines(&mut lines, &work.packets.lines[packet as usize], lanes);
             }
             BinEntry::Point(number) => drawing.point(&work.chunk.points[number as usize]),
         }

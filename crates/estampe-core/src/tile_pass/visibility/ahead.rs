@@ -113,7 +113,7 @@ impl<'a> Upcoming<'a> {
             {
                 self.taken += 1;
                 if let BinEntry::Triangles { packet, .. } = entry {
-                    let packet = &run.triangles[packet as usize];
+                    let packet = &run.packets.triangles[packet as usize];
                     let reads_varyings = run.path == TilePath::VisibilityCrossTriangle;
                     return Some((packet, run.source, reads_varyings));
                 }

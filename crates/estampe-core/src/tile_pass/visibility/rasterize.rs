@@ -41,7 +41,7 @@ pub(super) fn rasterize<const N: usize>(
         let BinEntry::Triangles { packet, lanes } = *entry else {
             unreachable!("lines and points are drawn in order");
         };
-        let triangles = &work.triangles[packet as usize];
+        let triangles = &work.packets.triangles[packet as usize];
         if gathers && gathered.add(triangles, lanes) {
             continue;
         }
@@ -159,7 +159,7 @@ impl<'a, 'j, 't, const N: usize> Rasterizer<'a, 'j, 't, N> {
 
     /// A triangle that waited, which is large.
     fn waiting(&mut self, packet: u32, lane: u8, id: u32) {
-        let packet = &self.work.triangles[packet as usize];
+        let packet = &self.work.packets.triangles[packet as usize];
         let lane = usize::from(lane);
         let TileWork { shape, rect, .. } = self.work;
         let triangle = packet.triangle(lane);

@@ -65,7 +65,7 @@ impl<'a, const N: usize> Resolver<'a, '_, '_, N> {
         let chunk = &self.pass.chunks[triangle.chunk as usize];
         let plan = &self.pass.plans[triangle.sub_draw as usize];
         NotedTriangles {
-            triangles: &self.pass.packets.triangles(chunk)[triangle.packet as usize],
+            triangles: &self.pass.packets.of(chunk).triangles[triangle.packet as usize],
             source: varyings_of(chunk, plan),
         }
     }

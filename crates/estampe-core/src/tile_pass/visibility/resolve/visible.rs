@@ -48,7 +48,8 @@ impl<const N: usize> Resolver<'_, '_, '_, N> {
         let chunk = &self.pass.chunks[reference.chunk as usize];
         let plan = &self.pass.plans[reference.sub_draw as usize];
         let lane = usize::from(reference.lane);
-        let triangle = self.pass.packets.triangles(chunk)[reference.packet as usize].triangle(lane);
+        let triangle =
+            self.pass.packets.of(chunk).triangles[reference.packet as usize].triangle(lane);
         let place = resolve.visible.len();
         // Fewer than there are ids, which have 31 bits.
         resolve.visible_of[at] = u32::try_from(place).unwrap_or(NONE);

@@ -90,7 +90,7 @@ impl WaitingTriangles {
             let depths = match &of_packet {
                 Some((number, depths)) if *number == packet => depths,
                 _ => {
-                    let triangles = &work.triangles[packet as usize];
+                    let triangles = &work.packets.triangles[packet as usize];
                     let depths = PacketDepths::new(work.level, triangles, tile, test);
                     &of_packet.insert((packet, depths)).1
                 }
@@ -146,7 +146,7 @@ pub(in crate::tile_pass::visibility) fn may_wait(
         && entries.len() <= MAX_WAITING
         && entries.iter().all(|entry| {
             let (packet, lanes) = triangles_of(entry);
-            lanes.is_power_of_two() && work.triangles[packet as usize].large & lanes != 0
+            lanes.is_power_of_two() && work.packets.triangles[packet as usize].large & lanes != 0
         })
 }
 
