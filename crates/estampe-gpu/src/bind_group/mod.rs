@@ -9,7 +9,7 @@ pub(crate) use bound::{BoundError, bound, check_layouts, check_offsets};
 pub(crate) use check::create_layout;
 pub use error::BindGroupError;
 
-use crate::texture::{Sampler, TextureView};
+use crate::texture::{Sampler, TextureUse, TextureView};
 use crate::{
     BindGroupLayout, BindGroupLayoutEntry, BindingType, BufferBindingType, BufferSlice, Limits,
 };
@@ -129,6 +129,22 @@ impl BindGroup {
 
     pub(crate) fn entries(&self) -> &[(u32, BindingResource)] {
         &self.inner.entries
+    }
+
+    /// The textures, and whether shaders may store to them.
+    pub(crate) fn texture_uses(&self) -> impl Iterator<Item = TextureUse<'_>> {
+        self.entries().iter().filter_map(|(binding, resource)| {
+            let (BindingResource::Texture(view) | BindingResource::SampledTexture(view, _)) =
+                resource
+            else {
+                return None;
+            };
+            let kind = self.layout().entry(*binding).map(|entry| entry.ty);
+            Some(TextureUse {
+                texture: view.texture(),
+                writes: matches!(kind, Some(BindingType::StorageTexture { .. })),
+            })
+        })
     }
 
     /// The number of dynamic offsets that a draw gives it.

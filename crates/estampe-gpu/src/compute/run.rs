@@ -2,10 +2,10 @@
 
 use super::check::{check_count, check_kind, of_dispatch};
 use super::{Dispatch, DispatchError, DispatchErrorKind, DispatchSize};
-use crate::bind_group::{BindingResource, bound};
+use crate::bind_group::bound;
 use crate::buffer::StoredBuffers;
 use crate::immediates::immediate_words;
-use crate::texture::{StoredTextures, Texture};
+use crate::texture::{Reservations, StoredTextures};
 use crate::{BindGroup, Device};
 use estampe_types::Bindings;
 use estampe_types::bindings::BoundResources;
@@ -37,7 +37,7 @@ fn run(device: &Device, dispatch: &Dispatch<'_>) -> Result<(), DispatchErrorKind
     };
     let _awake = (count != [1; 3]).then(|| device.context().awake());
     let groups = distinct(dispatch.bind_groups);
-    let reserved: Vec<_> = textures(&groups).iter().map(|one| one.reserve()).collect();
+    let reserved = Reservations::new(groups.iter().flat_map(|group| group.texture_uses()));
     let mut textures = StoredTextures::in_place();
     let buffers = StoredBuffers::in_place(&groups)?;
     let mut resources: Vec<(usize, Arc<BoundResources>)> = Vec::new();
@@ -105,19 +105,4 @@ fn distinct(groups: &[BindGroup]) -> Vec<&BindGroup> {
     groups.sort_by_key(|group| group.id());
     groups.dedup_by_key(|group| group.id());
     groups
-}
-
-/// All textures, in the order in which they are reserved.
-fn textures<'a>(groups: &[&'a BindGroup]) -> Vec<&'a Texture> {
-    let bound = groups.iter().flat_map(|group| group.entries());
-    let textures = bound.filter_map(|(_, resource)| match resource {
-        BindingResource::Texture(view) | BindingResource::SampledTexture(view, _) => {
-            Some(view.texture())
-        }
-        BindingResource::Buffer(_) | BindingResource::Sampler(_) => None,
-    });
-    let mut textures: Vec<_> = textures.collect();
-    textures.sort_by_key(|texture| texture.id());
-    textures.dedup_by_key(|texture| texture.id());
-    textures
 }

@@ -55,7 +55,8 @@ pub enum DeviceError {
 /// ```
 ///
 /// It is `Send + Sync`: share it by reference. Passes of several
-/// threads are drawn side by side; those that use the same texture wait for each other.
+/// threads are drawn side by side; those that use the same texture wait for each other,
+/// unless all of them only read it.
 #[derive(Debug)]
 pub struct Device {
     context: Context,

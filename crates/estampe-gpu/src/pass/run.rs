@@ -7,9 +7,8 @@ use super::images::Taken;
 use super::layers::Layer;
 use super::queries::Parts;
 use super::{PassErrorKind, RenderPass, RenderPassError};
-use crate::bind_group::BindingResource;
 use crate::buffer::StoredBuffers;
-use crate::texture::{StoredTextures, Texture, check_texture_conflicts};
+use crate::texture::{Reservations, StoredTextures, TextureUse, check_texture_conflicts};
 use crate::{Context, Device, LoadOp, Statistics};
 use estampe_core::{
     Discards, DrawList, DrawNeeds, OcclusionQueries, PassControl, RenderTarget, recycled,
@@ -122,8 +121,7 @@ fn run(device: &Device, pass: &RenderPass<'_>) -> Result<Statistics, PassErrorKi
     let of_layers = passes(pass, &layers);
     let DrawMemory { mut data, draws } = device.take_draw_memory();
     let (attachments, groups) = check_objects(device, each_pass(pass, &of_layers), &mut data)?;
-    let textures = reserved_order(&attachments, &groups);
-    let reserved: Vec<_> = textures.iter().map(|texture| texture.reserve()).collect();
+    let reserved = reserved(&attachments, &groups);
     let mut stores = StoredTextures::in_place();
     let buffers =
         StoredBuffers::in_place(&groups.distinct).map_err(PassErrorKind::StorageBuffer)?;
@@ -241,8 +239,7 @@ pub(crate) fn prepared<T>(
     let of_layers = passes(pass, &layers);
     let mut data = DrawData::default();
     let (attachments, groups) = check_objects(device, each_pass(pass, &of_layers), &mut data)?;
-    let textures = reserved_order(&attachments, &groups);
-    let reserved: Vec<_> = textures.iter().map(|texture| texture.reserve()).collect();
+    let reserved = reserved(&attachments, &groups);
     let buffers = StoredBuffers::copies(&groups.distinct).map_err(PassErrorKind::StorageBuffer)?;
     let stores = (&mut StoredTextures::copies(), &buffers);
     let resources = groups.resources(device.context(), stores)?;
@@ -323,18 +320,16 @@ fn draw(
     Ok(statistics)
 }
 
-/// All textures of a pass, in the order in which they are reserved.
-fn reserved_order<'a>(attachments: &[Attachments<'a>], groups: &Groups<'a>) -> Vec<&'a Texture> {
-    let bound = groups.distinct.iter().flat_map(|group| group.entries());
-    let bound = bound.filter_map(|(_, resource)| match resource {
-        BindingResource::Texture(view) | BindingResource::SampledTexture(view, _) => {
-            Some(view.texture())
-        }
-        BindingResource::Buffer(_) | BindingResource::Sampler(_) => None,
-    });
+/// Reserves all textures of a pass.
+fn reserved<'a>(attachments: &[Attachments<'a>], groups: &Groups<'a>) -> Reservations<'a> {
+    let bound = groups
+        .distinct
+        .iter()
+        .flat_map(|group| group.texture_uses());
     let attached = attachments.iter().flat_map(Attachments::textures);
-    let mut textures: Vec<&Texture> = attached.chain(bound).collect();
-    textures.sort_by_key(|texture| texture.id());
-    textures.dedup_by_key(|texture| texture.id());
-    textures
+    let attached = attached.map(|texture| TextureUse {
+        texture,
+        writes: true,
+    });
+    Reservations::new(attached.chain(bound))
 }

@@ -7,6 +7,7 @@ mod error;
 mod first_texels;
 mod host_access;
 mod region;
+mod reservation;
 mod stores;
 mod view;
 mod words;
@@ -16,6 +17,7 @@ pub(crate) use copy_texels::{check_copy, copy};
 pub use error::TextureError;
 pub(crate) use host_access::{check_read, check_write, read, read_sample, read_tight, write, zero};
 pub use region::{TexelCopyLayout, TextureCopy};
+pub(crate) use reservation::{Reservations, TextureUse};
 pub use stores::TextureConflict;
 pub(crate) use stores::{StoredTextures, check_texture_conflicts};
 pub(crate) use view::sampled_texture;
@@ -25,7 +27,7 @@ use crate::Limits;
 use estampe_core::ImageSize;
 use estampe_texture::TexelDescriptor;
 use estampe_types::{TextureDimension, TextureFormat};
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError, RwLock};
 
 bitflags::bitflags! {
     /// The uses of a texture: WebGPU's `GPUTextureUsage`.
@@ -154,8 +156,8 @@ struct Inner {
     label: Option<String>,
     texels: TexelDescriptor,
     usage: TextureUsages,
-    /// Held by the pass or copy that uses the texture: see [`Texture::reserve`].
-    reserved: Mutex<()>,
+    /// Held by the passes or the copy that use the texture: see [`Reservations`].
+    reserved: RwLock<()>,
     contents: Mutex<Contents>,
 }
 
@@ -208,7 +210,7 @@ impl Texture {
                 label,
                 texels,
                 usage: descriptor.usage,
-                reserved: Mutex::new(()),
+                reserved: RwLock::new(()),
                 contents: Mutex::new(Contents::default()),
             }),
         })
@@ -311,14 +313,6 @@ impl Texture {
 
     pub(crate) fn descriptor(&self) -> &TexelDescriptor {
         &self.inner.texels
-    }
-
-    /// Waits until no other pass or copy uses the texture, and keeps them waiting. What uses
-    /// several textures reserves them in the order of [`Texture::id`], so that nobody waits for
-    /// ever.
-    pub(crate) fn reserve(&self) -> MutexGuard<'_, ()> {
-        let reserved = &self.inner.reserved;
-        reserved.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     pub(crate) fn lock(&self) -> MutexGuard<'_, Contents> {
