@@ -1,6 +1,7 @@
 //! Commands: what a device does, as values, so that a list of them is checked as a whole.
 
 use crate::blit::{self, BlitRegion};
+use crate::pass::SideBySide;
 use crate::texture::{self, TexelCopyLayout, TextureCopy};
 use crate::{
     BlitError, Buffer, BufferError, CopyError, Device, Dispatch, DispatchError, Extent3d,
@@ -155,10 +156,36 @@ pub(crate) fn submit(device: &Device, commands: &[Command<'_>]) -> Result<Statis
     }
     let _awake = (commands.len() > 1).then(|| device.context().awake());
     let mut statistics = Statistics::default();
-    for (number, command) in commands.iter().enumerate() {
-        statistics += command.run(device).map_err(at(number))?;
+    let mut number = 0;
+    while number < commands.len() {
+        let together = passes_together(device, &commands[number..]);
+        if together.is_worthwhile(device) {
+            for drawn in together.render(device) {
+                statistics += drawn.map_err(|error| at(number)(error.into()))?;
+                number += 1;
+            }
+            continue;
+        }
+        for command in &commands[number..][..together.len().max(1)] {
+            statistics += command.run(device).map_err(at(number))?;
+            number += 1;
+        }
     }
     Ok(statistics)
+}
+
+/// The first commands, as far as they are passes that can be drawn side by side.
+fn passes_together<'a>(device: &Device, commands: &'a [Command<'a>]) -> SideBySide<'a> {
+    let mut together = SideBySide::default();
+    for command in commands {
+        let Command::Render(pass) = command else {
+            break;
+        };
+        if !together.add(device, pass) {
+            break;
+        }
+    }
+    together
 }
 
 impl Command<'_> {

@@ -85,6 +85,7 @@ impl Context {
     /// others.
     pub(super) fn build_chunks(
         &self,
+        executor: &Executor,
         batch: &DrawBatch<'_>,
         samples: usize,
         (planned, before): (Range<usize>, usize),
@@ -107,7 +108,7 @@ impl Context {
         let vertices = &memory.vertices;
         let (level, limits) = (self.level, self.bin_limits);
         let slabs = &memory.chunk_slabs;
-        let chunks_of_thread = count.div_ceil(self.executor.threads());
+        let chunks_of_thread = count.div_ceil(executor.threads());
         let costs = memory.tile_costs.entries();
         let build = |job: &mut ChunkJob<'_>, scratch: &mut ChunkScratch| {
             let expected = batch.packets(job.parts).map(|most| Expected {
@@ -141,18 +142,17 @@ impl Context {
             sizes
         };
         let built = Mutex::new(Built::default());
-        self.executor
-            .for_each_worker(&mut jobs[..], &memory.chunk_scratch, |next, scratch| {
-                let mut bins = BinSizes::default();
-                while let Some(jobs) = next() {
-                    for job in jobs {
-                        bins += build(job, scratch);
-                    }
+        executor.for_each_worker(&mut jobs[..], &memory.chunk_scratch, |next, scratch| {
+            let mut bins = BinSizes::default();
+            while let Some(jobs) = next() {
+                for job in jobs {
+                    bins += build(job, scratch);
                 }
-                let mut built = lock(&built);
-                built.bins += bins;
-                built.statistics += std::mem::take(&mut scratch.statistics);
-            });
+            }
+            let mut built = lock(&built);
+            built.bins += bins;
+            built.statistics += std::mem::take(&mut scratch.statistics);
+        });
         memory.lists.chunk_jobs = recycled(jobs);
         std::mem::take(&mut *lock(&built))
     }

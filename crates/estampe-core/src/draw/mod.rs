@@ -179,6 +179,12 @@ impl Context {
         self.executor.awake()
     }
 
+    /// The number of threads that run jobs at the same time: one where jobs are measured.
+    #[must_use]
+    pub fn concurrent_threads(&self) -> usize {
+        self.executor.concurrent_threads()
+    }
+
     /// Runs `work` for every item, on the threads that draw.
     pub fn for_each<T: Send>(&self, items: &mut [T], work: impl Fn(&mut T) + Sync) {
         self.executor.for_each_alone(items, work);
@@ -329,7 +335,7 @@ impl Context {
             }
             planned = planned.end..memory.chunk_plan.end_of_some(planned.end, primitives);
             let places = (planned.clone(), chunks.count);
-            let built = self.build_chunks(batch, samples, places, memory);
+            let built = self.build_chunks(executor, batch, samples, places, memory);
             chunks.count += planned.len();
             chunks.bins += built.bins;
             statistics += built.statistics;

@@ -219,6 +219,13 @@ impl RenderPipeline {
         self.program().interface()
     }
 
+    /// Returns true if there are stages between vertices and primitives: tessellation, a geometry
+    /// shader.
+    #[must_use]
+    pub fn amplifies(&self) -> bool {
+        self.inner.amplified.is_some()
+    }
+
     /// The stages between vertices and primitives, if there are any.
     pub(crate) fn amplified(&self) -> Option<&Amplified> {
         self.inner.amplified.as_ref()

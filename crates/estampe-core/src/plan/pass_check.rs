@@ -111,8 +111,20 @@ pub enum RenderPassError {
 pub struct DrawNeeds {
     /// Tessellation or a geometry shader.
     pub(crate) amplification: bool,
-    /// One thread, because shaders store in an order that can be seen.
+    /// One thread, because shaders store in an order that can be seen, or because other threads
+    /// draw other passes.
     pub(crate) one_thread: bool,
+}
+
+impl DrawNeeds {
+    /// The same, of a pass that the calling thread draws alone, as others are drawn beside it.
+    #[must_use]
+    pub fn by_one_thread(self) -> Self {
+        Self {
+            one_thread: true,
+            ..self
+        }
+    }
 }
 
 impl std::ops::BitOrAssign for DrawNeeds {

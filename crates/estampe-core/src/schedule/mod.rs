@@ -149,6 +149,15 @@ impl Executor {
         self.threads
     }
 
+    /// The number of threads that run jobs at the same time.
+    pub(crate) fn concurrent_threads(&self) -> usize {
+        if self.helpers.is_some() {
+            self.threads
+        } else {
+            1
+        }
+    }
+
     /// Runs `work` for every job.
     pub(crate) fn for_each_alone<T: Send>(&self, jobs: &mut [T], work: impl Fn(&mut T) + Sync) {
         self.share(jobs, |_, next| {

@@ -116,6 +116,10 @@ impl Device {
     /// Runs commands in order, after all of them were checked. Returns the sum of the passes'
     /// statistics.
     ///
+    /// Small passes that follow one another are drawn side by side, one on each thread, if none
+    /// changes a texture that another uses, their shaders store nothing, and they have no queries
+    /// and no [control](RenderPass::control). They draw what they draw one after the other.
+    ///
     /// ```
     /// use estampe::{ColorAttachment, Command, Device, DeviceDescriptor, RenderPass};
     /// use estampe::{TextureDescriptor, TextureFormat};
@@ -138,7 +142,8 @@ impl Device {
     /// # Errors
     /// [`SubmitError`] names the command and the reason. If the check fails, nothing has been done;
     /// a command can fail later only for want of memory, if a pass is cancelled, if a dispatch is
-    /// stopped, or if a buffer asks for too many work-groups: those before it are done then.
+    /// stopped, or if a buffer asks for too many work-groups: those before it are done then, and of
+    /// passes that are drawn side by side with it also others.
     pub fn submit(&self, commands: &[Command<'_>]) -> Result<Statistics, SubmitError> {
         command::submit(self, commands)
     }

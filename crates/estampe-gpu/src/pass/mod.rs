@@ -9,6 +9,7 @@ mod images;
 mod layers;
 mod queries;
 mod run;
+mod side_by_side;
 mod survey;
 
 pub(crate) use attachments::{Attachments, Use};
@@ -17,6 +18,7 @@ pub(crate) use draw_data::DrawMemory;
 pub use error::{PassErrorKind, RenderPassError};
 pub use queries::{RangeQueries, RangeResult};
 pub(crate) use run::{check, core_pass, prepared, render};
+pub(crate) use side_by_side::SideBySide;
 
 use crate::texture::TextureView;
 use estampe_core::{LoadOp, OcclusionQueries, PassControl, ResolveMode};

@@ -15,12 +15,30 @@ use estampe_core::{
 };
 use estampe_types::shader::StoppedBatches;
 
+/// Whether other passes are drawn beside one.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Company {
+    /// All threads draw the pass.
+    Alone,
+    /// One thread does, in a group of passes whose textures are reserved.
+    Beside,
+}
+
 /// Draws a pass.
 pub(crate) fn render(
     device: &Device,
     pass: &RenderPass<'_>,
 ) -> Result<Statistics, RenderPassError> {
-    run(device, pass).map_err(|kind| of_pass(pass, kind))
+    run(device, pass, Company::Alone).map_err(|kind| of_pass(pass, kind))
+}
+
+/// [`render`] of a pass by the calling thread alone, while others draw passes beside it. The caller
+/// has reserved its textures.
+pub(super) fn render_beside(
+    device: &Device,
+    pass: &RenderPass<'_>,
+) -> Result<Statistics, RenderPassError> {
+    run(device, pass, Company::Beside).map_err(|kind| of_pass(pass, kind))
 }
 
 /// Checks all that [`render`] checks before it draws.
@@ -114,14 +132,20 @@ pub(crate) fn core_pass<'a>(
     }
 }
 
-fn run(device: &Device, pass: &RenderPass<'_>) -> Result<Statistics, PassErrorKind> {
-    let _awake = has_tiles_for_several(pass).then(|| device.context().awake());
+fn run(
+    device: &Device,
+    pass: &RenderPass<'_>,
+    company: Company,
+) -> Result<Statistics, PassErrorKind> {
+    let is_alone = company == Company::Alone;
+    let for_several = is_alone && tiles(pass).is_some_and(|tiles| tiles > 1);
+    let _awake = for_several.then(|| device.context().awake());
     let (context, limits) = (device.context(), device.limits());
     let layers = Layer::of(pass)?;
     let of_layers = passes(pass, &layers);
     let DrawMemory { mut data, draws } = device.take_draw_memory();
     let (attachments, groups) = check_objects(device, each_pass(pass, &of_layers), &mut data)?;
-    let reserved = reserved(&attachments, &groups);
+    let reserved = is_alone.then(|| reserved(&attachments, &groups));
     let mut stores = StoredTextures::in_place();
     let buffers =
         StoredBuffers::in_place(&groups.distinct).map_err(PassErrorKind::StorageBuffer)?;
@@ -134,7 +158,10 @@ fn run(device: &Device, pass: &RenderPass<'_>) -> Result<Statistics, PassErrorKi
         ..core_pass(pass, attachments[0].loads(), DrawList::Parts(&draws))
     };
     // Before anything is taken, so that a pass that is refused changes nothing.
-    let needs = data.needs()?;
+    let mut needs = data.needs()?;
+    if !is_alone {
+        needs = needs.by_one_thread();
+    }
     let taken = take_all(context, &attachments)?;
     let layers = attachments.iter().zip(taken);
     let (mut targets, depths_newest): (Vec<_>, Vec<_>) =
@@ -178,17 +205,16 @@ fn run(device: &Device, pass: &RenderPass<'_>) -> Result<Statistics, PassErrorKi
     }
 }
 
-/// Returns true if a pass draws more than one tile of the core: one is drawn by one thread.
-fn has_tiles_for_several(pass: &RenderPass<'_>) -> bool {
+/// The tiles of the core that a pass with attachments draws, in each of its layers: one is drawn by
+/// one thread.
+pub(super) fn tiles(pass: &RenderPass<'_>) -> Option<u64> {
     const TILE_SIDE: u32 = 64;
     let colors = pass.color_attachments.iter().flatten();
     let depth = pass.depth_stencil_attachment.as_ref();
     let views = colors.map(|color| &color.view);
-    let view = views.chain(depth.map(|depth| &depth.view)).next();
-    view.is_some_and(|view| {
-        let [width, height] = view.size();
-        width.max(height) > TILE_SIDE
-    })
+    let view = views.chain(depth.map(|depth| &depth.view)).next()?;
+    let [columns, rows] = view.size().map(|side| side.div_ceil(TILE_SIDE));
+    Some(u64::from(columns) * u64::from(rows))
 }
 
 /// The programs of a draw that may be stopped.

@@ -30,6 +30,7 @@ mod render_to_texture;
 mod resolve;
 mod several_targets;
 mod several_threads;
+mod side_by_side;
 mod storage_textures;
 mod stored_samples;
 mod submissions;
