@@ -11,6 +11,7 @@ mod awake;
 use crate::profile::{JobTimings, Profiler};
 use awake::Watch;
 use rayon::Scope;
+use std::cell::Cell;
 use std::ops::Range;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -184,7 +185,8 @@ impl Executor {
         work: impl Fn(usize, &mut dyn FnMut() -> Option<J::Taken>) + Sync,
     ) {
         let workers = self.threads().min(jobs.left());
-        let Some(pool) = self.helpers.as_ref().filter(|_| workers > 1) else {
+        let calls_helpers = workers > 1 && !AtWork::is_current();
+        let Some(pool) = self.helpers.as_ref().filter(|_| calls_helpers) else {
             if let Some(profiler) = &self.profiler {
                 let kind = (J::job_type(), jobs.left());
                 profiler.hand_out(kind, || take_some(&mut jobs, 1), |next| work(0, next));
@@ -197,11 +199,13 @@ impl Executor {
         let running = AtomicUsize::new(workers);
         let watch = self.watch.as_ref();
         let run = |worker: usize| {
+            let at_work = AtWork::begin();
             work(worker, &mut || {
                 let mut left = lock(&left);
                 let count = left.left().div_ceil(workers * TURNS);
                 take_some(&mut *left, count)
             });
+            drop(at_work);
             running.fetch_sub(1, Ordering::Release);
             if let Some(watch) = watch.filter(|_| worker > 0) {
                 Watch::wait_for_more(watch);
@@ -215,6 +219,35 @@ impl Executor {
             run(0);
             wait_a_little(&running);
         });
+    }
+}
+
+thread_local! {
+    static IS_AT_WORK: Cell<bool> = const { Cell::new(false) };
+}
+
+/// While it lives, the thread does a job: if that is a list of jobs itself, as a pass beside others
+/// is, the thread does all of them. If it called helpers and waited for them, it could take up
+/// another job meanwhile, in the middle of one that holds a lock.
+struct AtWork {
+    before: bool,
+}
+
+impl AtWork {
+    fn begin() -> Self {
+        Self {
+            before: IS_AT_WORK.replace(true),
+        }
+    }
+
+    fn is_current() -> bool {
+        IS_AT_WORK.get()
+    }
+}
+
+impl Drop for AtWork {
+    fn drop(&mut self) {
+        IS_AT_WORK.set(self.before);
     }
 }
 
@@ -290,6 +323,27 @@ mod tests {
             let calls: Vec<_> = calls.into_iter().map(AtomicUsize::into_inner).collect();
             assert_eq!(calls[0], 0);
             assert_eq!(calls[1..], vec![1; workers - 1]);
+        }
+    }
+
+    /// A job that is a list of jobs, and holds a lock meanwhile: if another job were taken up in the
+    /// middle of it, the thread would wait for itself.
+    #[test]
+    fn a_thread_does_the_jobs_of_its_job_alone() {
+        for threads in [1, 2, 3, 8] {
+            let executor = Executor::new(threads).unwrap();
+            for _ in 0..200 {
+                let held = Mutex::new(());
+                let mut lists = vec![vec![None; 20]; 16];
+                executor.for_each_alone(&mut lists, |list| {
+                    let _held = lock(&held);
+                    executor.for_each_alone(list, |by| *by = Some(std::thread::current().id()));
+                });
+                let by_one = |list: &Vec<Option<_>>| list.iter().all(|by| *by == list[0]);
+                assert!(lists.iter().all(|list| list[0].is_some() && by_one(list)));
+            }
+            // Threads have helpers again.
+            assert!(!AtWork::is_current());
         }
     }
 
