@@ -326,8 +326,8 @@ mod tests {
         }
     }
 
-    /// A job that is a list of jobs, and holds a lock meanwhile: if another job were taken up in the
-    /// middle of it, the thread would wait for itself.
+    /// A job that is a list of jobs, and holds a lock meanwhile: if another job were taken up in
+    /// the middle of it, the thread would wait for itself.
     #[test]
     fn a_thread_does_the_jobs_of_its_job_alone() {
         for threads in [1, 2, 3, 8] {
