@@ -15,7 +15,7 @@ use estampe_core::{
 };
 use estampe_types::shader::StoppedBatches;
 
-/// Whether other passes are drawn beside one.
+/// The company in which a pass is drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Company {
     /// All threads draw the pass.

@@ -103,7 +103,7 @@ impl Objects {
     fn new(device: &Device) -> Self {
         let format = TextureFormat::Rgba8Unorm;
         let (layout, pipeline) = sampling_pipeline(device, Turned, FLAT, format);
-        // All but the last ones are small.
+        // All but the last are small.
         let sizes = [[70, 40], [64, 64], [9, 5], [130, 66], [40, 200], [400, 300]];
         let images = (0..).zip(sizes).map(|(seed, size)| {
             let image = texture(device, size, format);

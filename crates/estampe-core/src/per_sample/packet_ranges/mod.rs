@@ -101,7 +101,7 @@ impl Margin {
 /// A triangle whose packets are compared with the ranges.
 pub(crate) struct PacketQuery<'a, S: Lanes> {
     ranges: &'a PacketRanges,
-    /// What a block adds to depths of the tile's first block.
+    /// By block: the difference of its depths to those of the tile's first block.
     blocks: [f32; BLOCKS],
     /// Bounds of the depths of the packets of the tile's first block, with every margin.
     least: f32x16<S>,
