@@ -61,10 +61,10 @@ impl Selector<'_> {
     /// The function that runs a pass: a packet, or two where the halves are more than one's.
     pub(super) fn packet(&mut self, tier: Tier) -> Result<Function, CompileError> {
         let kernel = self.kernel;
-        let order = self.blocks_and_edges();
+        let layout = self.blocks_and_edges();
         let schedules = self.schedules(tier);
         let mut entries: Vec<Option<Block>> = vec![None; kernel.blocks.len()];
-        for (position, part) in order.iter().enumerate() {
+        for (position, part) in layout.iter().enumerate() {
             let made = self.function.new_block();
             debug_assert_eq!(made.index(), position);
             if let Part::Block(at) = part {
@@ -81,7 +81,7 @@ impl Selector<'_> {
             }
         }
         let entry = |to: BlockId| entries[to.index()].ok_or(CompileError::TooLarge);
-        for (position, part) in order.iter().enumerate() {
+        for (position, part) in layout.iter().enumerate() {
             let block = Block::new(position);
             self.function.start_block();
             self.buffer_pointers.fill(None);
@@ -90,9 +90,12 @@ impl Selector<'_> {
                     let of_kernel = &kernel.blocks[at];
                     self.find_groups(at);
                     self.find_uniform_loads(at);
-                    let ops = schedules[at].iter().map(|&index| &of_kernel.ops[index]);
+                    let Schedule {
+                        ref order,
+                        in_stages,
+                    } = schedules[at];
+                    let ops = order.iter().map(|&index| &of_kernel.ops[index]);
                     let ops: Vec<&(Op, Value)> = ops.collect();
-                    let in_stages = self.computes_in_stages(at);
                     let mut left = &ops[..];
                     while let Some(&(op, first)) = left.first() {
                         let count = if in_stages { self.apart(left) } else { 0 };
@@ -122,7 +125,7 @@ impl Selector<'_> {
                             // The edges of this block follow it, in this order.
                             let mut edge = position + 1;
                             let mut successor = |jump: &Jump, is_any: bool| {
-                                if order.get(edge) == Some(&Part::Edge { from: at, is_any }) {
+                                if layout.get(edge) == Some(&Part::Edge { from: at, is_any }) {
                                     edge += 1;
                                     Ok(Block::new(edge - 1))
                                 } else {
@@ -153,20 +156,33 @@ impl Selector<'_> {
         ))
     }
 
-    /// The order of the operations of each block that is reached, without those that are hoisted
-    /// and those that nothing needs.
-    fn schedules(&self, tier: Tier) -> Vec<Vec<usize>> {
+    /// How the operations of each block that is reached are done, without those that are hoisted and
+    /// those that nothing needs.
+    fn schedules(&self, tier: Tier) -> Vec<Schedule> {
         let mut scheduler = Scheduler::new(self.kernel, &self.plan, self.isa, self.halves);
         let blocks = 0..self.kernel.blocks.len();
         let has_pair = self.packets_of_pass().len() > 1;
-        let of_block = |at: usize| match tier {
-            _ if !self.plan.is_reached[at] => Vec::new(),
-            // Fewer registers need fewer spills, of which the fast allocator makes many.
-            Tier::Fast if self.isa == Isa::Avx2 => scheduler.as_written(at),
-            // Stages need few registers.
-            _ if self.isa == Isa::Avx2 && has_pair => scheduler.as_written(at),
-            _ if self.in_order.contains(&at) => scheduler.as_written(at),
-            _ => scheduler.by_latency(at),
+        let of_block = |at: usize| {
+            let in_stages = self.computes_in_stages(at);
+            let order = match tier {
+                _ if !self.plan.is_reached[at] => Vec::new(),
+                // Fewer registers need fewer spills, of which the fast allocator makes many.
+                Tier::Fast if self.isa == Isa::Avx2 => scheduler.as_written(at),
+                // Stages need few registers.
+                _ if self.isa == Isa::Avx2 && has_pair => scheduler.as_written(at),
+                _ if self.in_order.contains(&at) => scheduler.as_written(at),
+                _ => {
+                    let (order, most_live) = scheduler.by_latency(at);
+                    if self.computes_half_by_half(at, most_live) {
+                        return Schedule {
+                            order: scheduler.as_written(at),
+                            in_stages: true,
+                        };
+                    }
+                    order
+                }
+            };
+            Schedule { order, in_stages }
         };
         blocks.map(of_block).collect()
     }
@@ -223,6 +239,15 @@ impl Selector<'_> {
         }
         self.function.push(Instruction::Branch, &operands);
     }
+}
+
+/// How the operations of a block are done.
+#[derive(Debug)]
+struct Schedule {
+    /// Their places in the block.
+    order: Vec<usize>,
+    /// True if parts of a pass take turns: see [`stages`](super::stages).
+    in_stages: bool,
 }
 
 /// A part of the layout.

@@ -99,20 +99,23 @@ impl<'a> Scheduler<'a> {
         (0..ops.len()).filter(is_done_here).collect()
     }
 
-    /// The same in a good order.
-    pub(super) fn by_latency(&mut self, at: usize) -> Vec<usize> {
+    /// The same in a good order, and the most values that live at once then.
+    pub(super) fn by_latency(&mut self, at: usize) -> (Vec<usize>, usize) {
         let nodes = self.as_written(at);
         let mut list = List::new(self, at, &nodes);
         let start = (list.uses_left.clone(), list.waits.clone(), list.live);
-        let (order, most_live) = list.order(self, Priority::Height);
+        let (mut order, mut most_live) = list.order(self, Priority::Height);
         if most_live > self.limit() {
             (list.uses_left, list.waits, list.live) = start;
-            let (written, most_live) = list.order(self, Priority::Written);
-            if most_live <= self.limit() {
-                return written.into_iter().map(|node| nodes[node]).collect();
+            let (written, live) = list.order(self, Priority::Written);
+            if live <= self.limit() {
+                (order, most_live) = (written, live);
             }
         }
-        order.into_iter().map(|node| nodes[node]).collect()
+        (
+            order.into_iter().map(|node| nodes[node]).collect(),
+            most_live,
+        )
     }
 
     /// True if the value takes a register of which there are few.

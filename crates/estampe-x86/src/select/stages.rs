@@ -1,4 +1,4 @@
-//! Stages: runs of operations that one packet of a pass computes before the other one does.
+//! Stages: runs of operations that one part of a pass computes before the other one does.
 //!
 //! With AVX2 two packets of a pass have four registers a value, and there are sixteen. A stage has
 //! them all for the two of one packet; what lives from a stage to the next is in memory. So blocks
@@ -6,6 +6,9 @@
 //! at once. Stages are short: the processor must find those of both packets among the operations
 //! that it looks ahead. Where both are there, the units that load are the limit: the registers of a
 //! packet share a load of each constant of an operation.
+//!
+//! One packet, which has two registers a value, does the same register by register where far more
+//! values live than there are registers, as in loops of many sums.
 
 use super::plan::Plan;
 use super::schedule::latency;
@@ -15,6 +18,7 @@ use estampe_ir::lanes::{BasicBlock, Kernel};
 use estampe_ir::op::{Binary, Unary};
 use estampe_ir::{Op, Value};
 use std::collections::HashMap;
+use std::ops::Range;
 
 /// The least operations of a stage, of which others follow, and the most.
 const LEAST: usize = 12;
@@ -25,6 +29,12 @@ const MOST: usize = 24;
 /// cycles an operation: noise by hashes, with 1.2, took 1.04 to 1.1 of its time, `heavy_fs`, with
 /// 1.4, 0.89, and sixteen lights, with 2.0, 0.79.
 const LONG: usize = 64;
+
+/// The values that live at once, of one register a value, beyond which the two registers of a
+/// packet take turns with AVX2: twice as many as there are registers, so that most are in memory
+/// whatever the order. `nbody_compute`, where 47 live, took 0.76 of its time; a blur, where 17 do,
+/// 1.19, and `heavy_fs`, where 30 do, 1.1.
+const MANY_LIVE: usize = 32;
 
 /// True if a loop has a long block, most of whose time is that of its longest chain, and the kernel
 /// accesses no textures, whose calls spill all.
@@ -69,7 +79,26 @@ impl Selector<'_> {
         has_pair && (self.isa == Isa::Avx2 || is_in_loop(self.kernel, at))
     }
 
-    /// The number of operations, from the first on, that each packet does by itself or both share.
+    /// True if a block of a loop in which so many values live at once computes parts of one half of
+    /// a packet before those of the other one.
+    pub(super) fn computes_half_by_half(&self, at: usize, most_live: usize) -> bool {
+        self.halves_of_packet_take_turns() && most_live > MANY_LIVE && is_in_loop(self.kernel, at)
+    }
+
+    fn halves_of_packet_take_turns(&self) -> bool {
+        self.isa == Isa::Avx2 && self.halves == self.isa.registers_of_packet()
+    }
+
+    /// The halves of each part of a pass that computes a stage by itself.
+    fn turns(&self) -> Vec<Range<usize>> {
+        if self.halves_of_packet_take_turns() {
+            (0..self.halves).map(|half| half..half + 1).collect()
+        } else {
+            self.packets_of_pass()
+        }
+    }
+
+    /// The number of operations, from the first on, that each part does by itself or all share.
     pub(super) fn apart(&self, ops: &[&(Op, Value)]) -> usize {
         let is_apart = |(op, first): &&&(Op, Value)| match op {
             Op::Unary(kind, _) => *kind != Unary::ReverseBits,
@@ -92,7 +121,7 @@ impl Selector<'_> {
         ops.iter().take_while(is_apart).count()
     }
 
-    /// Operations of one packet of a pass after the other one: with AVX-512, where a value has one
+    /// Operations of one part of a pass after the other one: with AVX-512, where a value has one
     /// register a packet, all of them; with AVX2 stage by stage.
     pub(super) fn in_stages(&mut self, ops: &[&(Op, Value)]) -> Result<(), CompileError> {
         match self.isa {
@@ -102,7 +131,7 @@ impl Selector<'_> {
     }
 
     fn stage(&mut self, ops: &[&(Op, Value)]) -> Result<(), CompileError> {
-        for halves in self.packets_of_pass() {
+        for halves in self.turns() {
             for (op, first) in ops {
                 if self.plan.is_splat(*first) {
                     if halves.start == 0 {

@@ -8,8 +8,7 @@ use std::fmt::Write;
 
 /// A kernel with a loop that runs so often, of sums of what a random body makes of the words that
 /// the invocations stored.
-fn sums_of_random_bodies(random: &mut fastrand::Rng, trips: u32) -> String {
-    let sums = random.usize(1..6);
+fn sums_of_random_bodies(random: &mut fastrand::Rng, trips: u32, sums: usize) -> String {
     let mut text = format!(
         "{INTERFACE}
   uv2 = const 1
@@ -118,7 +117,8 @@ fn pipelined_loops_give_what_the_interpreter_gives() {
     let random = &mut fastrand::Rng::with_seed(5);
     let mut pipelined = 0;
     for trips in [0, 1, 2, 3, 17, 32].repeat(8) {
-        let text = sums_of_random_bodies(random, trips);
+        let sums = random.usize(1..6);
+        let text = sums_of_random_bodies(random, trips, sums);
         agreed(&text, 2, 1 << 20).0.unwrap();
         for isa in Isa::ALL.into_iter().filter(|isa| isa.is_available()) {
             let fast = roots(&text, (isa, Tier::Fast));
@@ -135,7 +135,7 @@ fn pipelined_loops_give_what_the_interpreter_gives() {
 #[test]
 fn loops_with_effects_are_not_pipelined() {
     let random = &mut fastrand::Rng::with_seed(6);
-    let text = sums_of_random_bodies(random, 9);
+    let text = sums_of_random_bodies(random, 9, 3);
     let text = text.replace(
         "  jump b1(uv1",
         "  store_workgroup [v0], v10, m1\n  jump b1(uv1",
@@ -146,4 +146,39 @@ fn loops_with_effects_are_not_pipelined() {
         let [fast, optimised] = [Tier::Fast, Tier::Optimised].map(|tier| roots(&text, (isa, tier)));
         assert_eq!(fast, optimised);
     }
+}
+
+/// The square roots after which the next one follows at once, but for moves.
+fn roots_in_a_row(text: &str, isa: Isa) -> usize {
+    let code = Code::compile(&text::kernel(text).unwrap(), isa, Tier::Optimised).unwrap();
+    let decoder = Decoder::new(64, code.instructions(), DecoderOptions::NONE);
+    let mnemonics = decoder.into_iter().map(|one| one.mnemonic());
+    let others: Vec<Mnemonic> = mnemonics
+        .filter(|one| !matches!(one, Mnemonic::Vmovups | Mnemonic::Vmovaps))
+        .collect();
+    let pairs = others.windows(2);
+    pairs
+        .filter(|pair| **pair == [Mnemonic::Vsqrtps; 2])
+        .count()
+}
+
+/// Where far more values live than AVX2 has registers, the halves of a packet take turns.
+#[test]
+fn halves_take_turns_in_loops_of_many_sums() {
+    let random = &mut fastrand::Rng::with_seed(7);
+    let mut in_a_row = [0; 2];
+    for round in 0..24 {
+        let has_many = round % 2;
+        let sums = [random.usize(1..4), random.usize(34..50)][has_many];
+        let trips = random.u32(..20);
+        let text = sums_of_random_bodies(random, trips, sums);
+        agreed(&text, 2, 1 << 20).0.unwrap();
+        if Isa::Avx2.is_available() {
+            in_a_row[has_many] += roots_in_a_row(&text, Isa::Avx2);
+        }
+    }
+    // Two roots of one half may follow each other, too, but those of both halves do not.
+    let [few, many] = in_a_row;
+    let is_told = few > 24 && many * 4 < few;
+    assert!(is_told || !Isa::Avx2.is_available(), "{in_a_row:?}");
 }
