@@ -24,7 +24,7 @@ const WORDS: u32 = 32;
 /// calls, what code does not do itself.
 fn operation(random: &mut Rng, b: &mut Builder, [x, y]: [Value; 2], has_calls: bool) -> Value {
     let cover = b.input(Input::Cover);
-    match random.u8(..if has_calls { 11 } else { 9 }) {
+    match random.u8(..if has_calls { 12 } else { 9 }) {
         0 => b.binary(Binary::Add, x, y),
         1 => b.binary(Binary::Xor, x, y),
         2 => b.binary(Binary::Mul, x, y),
@@ -56,6 +56,7 @@ fn operation(random: &mut Rng, b: &mut Builder, [x, y]: [Value; 2], has_calls: b
             b.op1(Op::LoadBuffer { buffer: 0, offset })
         }
         9 => b.unary(Unary::ReverseBits, x),
+        10 => b.unary(Unary::CountOnes, x),
         _ => b.binary(Binary::UDiv, x, y),
     }
 }

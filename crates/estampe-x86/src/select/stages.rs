@@ -101,8 +101,12 @@ impl Selector<'_> {
     /// The number of operations, from the first on, that each part does by itself or all share.
     pub(super) fn apart(&self, ops: &[&(Op, Value)]) -> usize {
         let is_apart = |(op, first): &&&(Op, Value)| match op {
-            Op::Unary(kind, _) => *kind != Unary::ReverseBits,
-            // A call with AVX2.
+            Op::Unary(Unary::ReverseBits, _) => false,
+            // Calls with AVX2.
+            Op::Unary(Unary::CountOnes | Unary::LeadingZeros | Unary::TrailingZeros, _) => {
+                self.isa == Isa::Avx512
+            }
+            Op::Unary(..) => true,
             Op::Binary(Binary::SDiv | Binary::SRem | Binary::UDiv | Binary::URem, _) => {
                 self.isa == Isa::Avx512
             }
