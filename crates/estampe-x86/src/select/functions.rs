@@ -156,8 +156,8 @@ impl Selector<'_> {
         ))
     }
 
-    /// How the operations of each block that is reached are done, without those that are hoisted and
-    /// those that nothing needs.
+    /// How the operations of each block that is reached are done, without those that are hoisted
+    /// and those that nothing needs.
     fn schedules(&self, tier: Tier) -> Vec<Schedule> {
         let mut scheduler = Scheduler::new(self.kernel, &self.plan, self.isa, self.halves);
         let blocks = 0..self.kernel.blocks.len();
