@@ -17,6 +17,7 @@
 //! without textures. WGSL's `heavy_fs` takes 0.89 of its time on Zen 3 so, but a loop of few
 //! operations, which one packet runs without memory, 1.3 times as long. Branches are taken if a
 //! lane of either packet asks for it.
+//! Where far more values live in a loop than AVX2 has registers, the two of one packet take turns.
 //! Calls serve one packet after the other. Kernels with several effects on memory, or arrays, or
 //! barriers, run single packets; so does the last packet of an odd number.
 //!

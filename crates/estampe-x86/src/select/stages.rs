@@ -32,8 +32,8 @@ const LONG: usize = 64;
 
 /// The values that live at once, of one register a value, beyond which the two registers of a
 /// packet take turns with AVX2: twice as many as there are registers, so that most are in memory
-/// whatever the order. `nbody_compute`, where 47 live, took 0.76 of its time; a blur, where 17 do,
-/// 1.19, and `heavy_fs`, where 30 do, 1.1.
+/// whatever the order. `nbody_compute`, where 47 live, took 0.77 of its time, but `blur_compute`,
+/// where 17 do, 1.19.
 const MANY_LIVE: usize = 32;
 
 /// True if a loop has a long block, most of whose time is that of its longest chain, and the kernel
