@@ -226,30 +226,31 @@ pub fn quad_input<'a>(
         let z = clamp_depth(surface.depth(pixel, place));
         [x, y, z, surface.inverse_w_at(pixel, place)]
     });
+    // What no scalar asks for is not computed.
+    let has_centroids = interface.sampling.contains(&Sampling::Centroid);
+    let has_gradients = !interface.gradients.is_empty();
     let varyings = lanes.map(|lane| {
-        let at = |sampling| surface.varyings_at(pixels[lane], invocation.place(lane, sampling));
-        let (center, centroid) = (at(Sampling::Center), at(Sampling::Centroid));
-        let scalar = |k: usize| match interface.sampling.get(k) {
-            Some(Sampling::Centroid) => centroid[k],
+        let pixel = pixels[lane];
+        let places = [Sampling::Center, Sampling::Centroid].map(|of| invocation.place(lane, of));
+        // The place among these at which a scalar is evaluated.
+        let place_of = |k: usize| match interface.sampling.get(k) {
+            Some(Sampling::Centroid) => 1,
             // A `Sample` varying makes shading run per sample; all positions are then that
             // sample's.
-            Some(Sampling::Center | Sampling::Sample) | None => center[k],
+            Some(Sampling::Center | Sampling::Sample) | None => 0,
         };
-        let (place, centroid) = (
-            invocation.place(lane, Sampling::Center),
-            invocation.place(lane, Sampling::Centroid),
-        );
-        let derivatives =
-            [place, centroid].map(|place| surface.derivatives_at(pixels[lane], place));
+        let (mut values, mut derivatives) = ([const { Vec::new() }; 2], [const { Vec::new() }; 2]);
+        for (at, &place) in places[..=usize::from(has_centroids)].iter().enumerate() {
+            values[at] = surface.varyings_at(pixel, place);
+            if has_gradients {
+                derivatives[at] = surface.derivatives_at(pixel, place);
+            }
+        }
+        let scalars = (0..interface.varyings.len()).map(|k| values[place_of(k)][k]);
         let derivative = |axis: usize| {
-            let of = &derivatives;
-            let scalars = interface.gradients.iter();
-            scalars.map(move |&k| match interface.sampling.get(k) {
-                Some(Sampling::Centroid) => of[1][k][axis],
-                _ => of[0][k][axis],
-            })
+            let (of, scalars) = (&derivatives, interface.gradients.iter());
+            scalars.map(move |&k| of[place_of(k)][k][axis])
         };
-        let scalars = (0..interface.varyings.len()).map(scalar);
         scalars.chain(derivative(0)).chain(derivative(1)).collect()
     });
     QuadInput {

@@ -451,6 +451,52 @@ fn arrays_structs_and_private_variables() {
     });
 }
 
+/// Arrays to which nothing is stored are tables, one for the same words; those that are stored to,
+/// also through pointers, are not.
+#[test]
+fn arrays_of_constants() {
+    let source = "
+        var<private> primes: array<u32, 9> = array(2u, 3u, 5u, 7u, 11u, 13u, 17u, 19u, 23u);
+        var<private> counts: array<u32, 9> = array(2u, 3u, 5u, 7u, 11u, 13u, 17u, 19u, 23u);
+        const halves = array(0.5, 1.0, 1.5, 2.0, 2.5, 3.0, 3.5, 4.0, 4.5);
+        fn count(i: u32) { counts[i] += 1u; }
+        fn replace(list: ptr<function, array<f32, 4>>, i: u32) { (*list)[i] = -1.0; }
+        fn square(i: u32) -> f32 { var list = array(0.0, 1.0, 4.0, 9.0); return list[i]; }
+        @fragment fn main(@location(0) v: vec4f) -> @location(0) vec4f {
+            let at = u32(abs(v.y)) % 3u;
+            var changed = array(0.0, 1.0, 4.0, 9.0);
+            replace(&changed, at);
+            var pairs = array(vec2f(1.0, 2.0), vec2f(3.0, 4.0), vec2f(5.0, 6.0));
+            var flags = array(true, false, true);
+            count(at);
+            return vec4f(
+                changed[at] + changed[at + 1u],
+                square(at + 1u) + square(at) + pairs[at].y,
+                f32(primes[at * 4u] + counts[at] + primes[at + 99u]),
+                halves[at + 7u] + select(10.0, 20.0, flags[at]));
+        }";
+    check(source, |[_, y, ..]| {
+        let at = y.abs() as usize % 3;
+        let primes = [2.0, 3.0, 5.0, 7.0, 11.0, 13.0, 17.0, 19.0, 23.0];
+        let square = |n: usize| (n * n) as f32;
+        [
+            square(at + 1) - 1.0,
+            square(at + 1) + square(at) + (2 * at + 2) as f32,
+            primes[at * 4] + primes[at] + 1.0 + 23.0,
+            [4.0, 4.5, 4.5][at] + if at == 1 { 10.0 } else { 20.0 },
+        ]
+    });
+    let tree = lowered(source);
+    let tables = tree.interface.locals.iter().map(|array| &array.init);
+    let mut tables: Vec<usize> = tables
+        .filter(|init| !init.is_empty())
+        .map(Vec::len)
+        .collect();
+    tables.sort_unstable();
+    // The squares, the pairs, the halves and the primes.
+    assert_eq!(tables, [4, 6, 9, 9]);
+}
+
 #[test]
 fn discarded_fragments_are_not_covered() {
     let tree = lowered(

@@ -38,7 +38,6 @@ pub struct Code {
     pub(crate) has_loops: bool,
     /// The words of the memory of a work-group; `None` if a run is not one.
     pub(crate) workgroup_words: Option<usize>,
-    pub(crate) local_words: Vec<u32>,
     pub(crate) reset_locals: Vec<ResetLocal>,
     /// A number that no other code has.
     pub(crate) id: u64,
@@ -177,7 +176,6 @@ impl Code {
                 .collect(),
             has_loops: kernel.has_loops(),
             workgroup_words: is_workgroup.then_some(interface.workgroup_words as usize),
-            local_words: interface.locals.iter().map(|array| array.words).collect(),
             reset_locals,
             frame,
             id: NEXT_ID.fetch_add(1, Ordering::Relaxed),

@@ -107,8 +107,6 @@ unsafe extern "sysv64" fn serve(frame: *mut Line, call: u32) {
             let mut call = Call {
                 served,
                 arguments,
-                // SAFETY: as for this function; no other call has them.
-                locals: unsafe { locals(frame, context) },
                 mask,
                 mask_result: 0,
             };

@@ -1,7 +1,7 @@
 //! What code asks Rust for: rare operations, stores, atomic operations and textures.
 
 use crate::compile::ResetLocal;
-use crate::frame::{Frame, PACKET};
+use crate::frame::Frame;
 use crate::select::calls::{Kind, Served};
 use estampe_ir::interpreter::{Buffer, Common, Run, TextureAccess, TextureAccesses, atomic};
 use estampe_ir::op::{Memory, TextureOp};
@@ -23,8 +23,6 @@ pub(crate) struct Context<'a> {
     pub(crate) workgroup: &'a [AtomicU32],
     /// The packets that have a state.
     pub(crate) states: usize,
-    /// The words of each array.
-    pub(crate) local_words: &'a [u32],
     /// A panic in a call, to go on with when the code has returned.
     pub(crate) panic: RefCell<Option<Box<dyn Any + Send>>>,
 }
@@ -35,8 +33,6 @@ pub(crate) struct Call<'a> {
     pub(crate) served: &'a Served,
     /// The operands, then the results.
     pub(crate) arguments: &'a mut [Packet<u32>],
-    /// The words of all arrays.
-    pub(crate) locals: &'a mut [Packet<u32>],
     /// The lanes that act.
     pub(crate) mask: u16,
     pub(crate) mask_result: u16,
@@ -65,40 +61,11 @@ impl Context<'_> {
         let lanes = (0..LANES).filter(|&lane| is_set(lane));
         let (operands, results) = call.arguments.split_at_mut(call.served.operands);
         match (&call.served.kind, operands, results) {
-            (Kind::Unary(kind), [a], [result]) => {
-                for (to, a) in result.0.iter_mut().zip(a.0) {
-                    *to = kind.evaluate(a);
-                }
-            }
-            (Kind::Binary(kind), [a, b], [result]) => {
-                for (to, (a, b)) in result.0.iter_mut().zip(a.0.into_iter().zip(b.0)) {
-                    *to = kind.evaluate([a, b]);
-                }
-            }
             (Kind::Store { memory }, [offset, value], _) => {
                 let memory = self.memory(*memory);
                 for lane in lanes {
                     if let Some(word) = memory.at(offset.0[lane]) {
                         word.store(value.0[lane], Relaxed);
-                    }
-                }
-            }
-            (Kind::StoreLocal { array }, [index, value], _) => {
-                let at = *array as usize;
-                let (Some(&start), Some(&words)) =
-                    (self.frame.locals.get(at), self.local_words.get(at))
-                else {
-                    return;
-                };
-                let start = (start - self.frame.locals[0]) / PACKET;
-                let (start, words) = (start as usize, words as usize);
-                let array = call
-                    .locals
-                    .get_mut(start..start + words)
-                    .unwrap_or_default();
-                for lane in lanes {
-                    if let Some(word) = array.get_mut(index.0[lane] as usize) {
-                        word.0[lane] = value.0[lane];
                     }
                 }
             }

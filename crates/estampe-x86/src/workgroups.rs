@@ -68,7 +68,6 @@ impl Code {
                 reset_locals: &self.reset_locals,
                 workgroup,
                 states,
-                local_words: &self.local_words,
                 panic: RefCell::new(None),
             };
             if let Some(prepare) = self.prepare {

@@ -11,6 +11,15 @@ use estampe_ir::{Type, Value};
 use naga::Handle;
 use std::collections::HashMap;
 
+/// What functions do with a variable.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Uses {
+    /// It is indexed by a number that is computed.
+    pub(super) is_indexed: bool,
+    /// It is stored to, after its initial value.
+    pub(super) is_stored: bool,
+}
+
 impl<'a> Lowering<'a> {
     /// Inlines a function. Returns the scalars that it returns.
     pub(super) fn inline(
@@ -62,24 +71,32 @@ impl<'a> Lowering<'a> {
                     self.zeros(&types)
                 }
             };
-            let is_indexed = summary.indexed.contains(&Root::Local(handle));
-            let pointer = self.variable(local.ty, &initial, is_indexed)?;
+            let root = Root::Local(handle);
+            let uses = Uses {
+                is_indexed: summary.indexed.contains(&root),
+                is_stored: summary.stored.contains(&root),
+            };
+            let pointer = self.variable(local.ty, &initial, uses)?;
             frame.locals.insert(handle, pointer);
         }
         Ok(())
     }
 
-    /// Memory of the invocation: slots, or an array if it is indexed by computed numbers.
+    /// Memory of the invocation: slots, or if it is indexed by computed numbers an array, of
+    /// constants if nothing is stored to it.
     pub(super) fn variable(
         &mut self,
         ty: Handle<naga::Type>,
         initial: &[Value],
-        is_indexed: bool,
+        uses: Uses,
     ) -> Lowered<Pointer> {
         let inner = self.module.types[ty].inner.clone();
-        if !is_indexed {
+        if !uses.is_indexed {
             let base = Base::Slots(self.slots.len());
             self.slots.extend(initial);
+            return Ok(Pointer { base, inner });
+        }
+        if let (false, Some(base)) = (uses.is_stored, self.table(initial)) {
             return Ok(Pointer { base, inner });
         }
         let words = u32::try_from(scalars_of(self.module, ty)?.len()).unwrap_or(u32::MAX);
@@ -89,16 +106,37 @@ impl<'a> Lowering<'a> {
         Ok(pointer)
     }
 
+    /// An array of constants, to which nothing is stored, if these are words that are known.
+    pub(super) fn table(&mut self, values: &[Value]) -> Option<Base> {
+        let words = values.iter().map(|value| self.builder.constant_of(*value));
+        let init: Vec<u32> = words.collect::<Option<_>>()?;
+        let known = self.tables.get(&init).copied();
+        let array = known.unwrap_or_else(|| {
+            let array = self.local_array(LocalArray {
+                words: u32::try_from(init.len()).unwrap_or(u32::MAX).max(1),
+                init: init.clone(),
+            });
+            self.tables.insert(init, array);
+            array
+        });
+        let word = self.builder.word(0);
+        Some(Base::Local { array, word })
+    }
+
     /// A new array of the invocation.
     pub(super) fn array(&mut self, words: u32) -> Base {
-        let locals = &mut self.builder.interface_mut().locals;
-        locals.push(LocalArray {
+        let array = self.local_array(LocalArray {
             words: words.max(1),
             init: Vec::new(),
         });
-        let array = u32::try_from(locals.len() - 1).expect("fewer than 2^32 arrays");
         let word = self.builder.word(0);
         Base::Local { array, word }
+    }
+
+    fn local_array(&mut self, array: LocalArray) -> u32 {
+        let locals = &mut self.builder.interface_mut().locals;
+        locals.push(array);
+        u32::try_from(locals.len() - 1).expect("fewer than 2^32 arrays")
     }
 
     pub(super) fn zeros(&mut self, types: &[Type]) -> Vec<Value> {

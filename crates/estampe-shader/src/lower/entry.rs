@@ -1,5 +1,6 @@
 //! Inputs and outputs of an entry point.
 
+use super::call::Uses;
 use super::half::is_half;
 use super::pointer::{Base, InWord, Pointer};
 use super::types::{is_wide, kinds, scalars_of};
@@ -87,8 +88,11 @@ impl<'a> Lowering<'a> {
                             self.zeros(&types)
                         }
                     };
-                    let is_indexed = self.summaries.is_indexed(handle);
-                    Operand::Pointer(self.variable(global.ty, &initial, is_indexed)?)
+                    let uses = Uses {
+                        is_indexed: self.summaries.is_indexed(handle),
+                        is_stored: self.summaries.is_stored(handle),
+                    };
+                    Operand::Pointer(self.variable(global.ty, &initial, uses)?)
                 }
                 AddressSpace::WorkGroup => {
                     let words = scalars_of(self.module, global.ty)?.len();

@@ -221,13 +221,16 @@ impl<'a> Lowering<'a> {
         let width = scalars(self.module, &part.inner)?.len();
         if count > FEW_PARTS {
             // In memory, every scalar is a word.
-            let words = u32::try_from(values.len()).unwrap_or(u32::MAX);
-            let base = self.array(words);
-            let whole = Pointer {
-                base,
-                inner: inner.clone(),
+            let inner = inner.clone();
+            let whole = if let Some(base) = self.table(&values) {
+                Pointer { base, inner }
+            } else {
+                let words = u32::try_from(values.len()).unwrap_or(u32::MAX);
+                let base = self.array(words);
+                let whole = Pointer { base, inner };
+                self.store(&whole, &values)?;
+                whole
             };
-            self.store(&whole, &values)?;
             let place = self.access(&whole, Err(index))?;
             return Ok(Operand::Scalars(self.load(&place)?));
         }

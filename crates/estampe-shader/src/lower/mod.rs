@@ -110,6 +110,7 @@ pub fn lower(
         builder: Builder::new(stage),
         slots: Vec::new(),
         globals: HashMap::new(),
+        tables: HashMap::new(),
         cover: 0,
         calls: 0,
         varyings: Vec::new(),
@@ -144,6 +145,8 @@ struct Lowering<'a> {
     /// The value of each slot.
     slots: Vec<Value>,
     globals: HashMap<Handle<GlobalVariable>, Operand>,
+    /// The arrays of constants, by their words.
+    tables: HashMap<Vec<u32>, u32>,
     /// The slot of the mask of invocations that have effects.
     cover: usize,
     /// The calls that are being inlined.

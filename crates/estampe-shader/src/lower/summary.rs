@@ -28,6 +28,8 @@ pub(super) struct Summaries {
     of_function: HashMap<Handle<Function>, Summary>,
     /// Global variables that any function indexes.
     indexed: HashSet<Handle<GlobalVariable>>,
+    /// Global variables that any function stores to.
+    stored: HashSet<Handle<GlobalVariable>>,
 }
 
 impl Summaries {
@@ -35,6 +37,7 @@ impl Summaries {
         let mut summaries = Self {
             of_function: HashMap::new(),
             indexed: HashSet::new(),
+            stored: HashSet::new(),
         };
         // A function stands after those that it calls.
         for (handle, function) in module.functions.iter() {
@@ -52,6 +55,11 @@ impl Summaries {
         self.indexed.contains(&global)
     }
 
+    /// True if a function stores to a global variable.
+    pub(super) fn is_stored(&self, global: Handle<GlobalVariable>) -> bool {
+        self.stored.contains(&global)
+    }
+
     /// What a block of a function does.
     pub(super) fn of(&mut self, function: &Function, block: &Block) -> Summary {
         let mut summary = Summary::default();
@@ -64,6 +72,11 @@ impl Summaries {
             }
         }
         self.block(function, block, &mut summary);
+        self.stored
+            .extend(summary.stored.iter().filter_map(|root| match root {
+                Root::Global(global) => Some(*global),
+                Root::Local(_) | Root::Argument(_) => None,
+            }));
         summary
     }
 

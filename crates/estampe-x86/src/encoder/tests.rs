@@ -180,7 +180,7 @@ fn vector_instructions_with_memory() {
                 };
                 let can_broadcast = is_evex
                     && matches!(op.tuple, Tuple::Full(_))
-                    && ![&v::LOAD, &v::STORE, &v::MOVE].contains(op);
+                    && ![&v::LOAD, &v::STORE, &v::MOVE, &v::SHUFFLE_BYTES].contains(op);
                 let is_broadcast = can_broadcast && random.bool();
                 broadcasts += u32::from(is_broadcast);
                 let base = Gpr(random.u8(..16));

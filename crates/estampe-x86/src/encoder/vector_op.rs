@@ -174,6 +174,7 @@ table! {
     SHR_U_BY = VectorOp::both("vpsrld", P66, 1, 0x72).digit(2);
     SHR_S_BY = VectorOp::both("vpsrad", P66, 1, 0x72).digit(4);
     SHR_64_BY = VectorOp::both("vpsrlq", P66, 1, 0x73).wide().digit(2);
+    SHL_64_BY = VectorOp::both("vpsllq", P66, 1, 0x73).wide().digit(6);
     COMPARE_S = VectorOp::both("vpcmpd", P66, 3, 0x1F).evex_only();
     COMPARE_U = VectorOp::both("vpcmpud", P66, 3, 0x1E).evex_only();
     EQUAL = VectorOp::both("vpcmpeqd", P66, 1, 0x76).vex_only();
@@ -190,8 +191,11 @@ table! {
     F64_FROM_U32 = VectorOp::both("vcvtudq2pd", F3, 1, 0x7A).evex_only();
     S32_FROM_F64 = VectorOp::both("vcvttpd2dq", P66, 1, 0xE6).evex_only().wide();
     U32_FROM_F64 = VectorOp::both("vcvttpd2udq", NONE, 1, 0x78).evex_only().wide();
-    MUL_F64 = VectorOp::both("vmulpd", P66, 1, 0x59).evex_only().wide();
-    DIV_F64 = VectorOp::both("vdivpd", P66, 1, 0x5E).evex_only().wide();
+    ADD_F64 = VectorOp::both("vaddpd", P66, 1, 0x58).wide();
+    SUB_F64 = VectorOp::both("vsubpd", P66, 1, 0x5C).wide();
+    MUL_F64 = VectorOp::both("vmulpd", P66, 1, 0x59).wide();
+    DIV_F64 = VectorOp::both("vdivpd", P66, 1, 0x5E).wide();
+    ROUND_F64 = VectorOp::both("vroundpd", P66, 3, 0x09).evex_name("vrndscalepd").wide();
     // Lanes of 16 bits, side by side in the lower half of a register.
     F32_FROM_F16 = VectorOp::both("vcvtph2ps", P66, 2, 0x13);
     F16_FROM_F32 = VectorOp::both("vcvtps2ph", P66, 3, 0x1D);
@@ -201,7 +205,9 @@ table! {
     PERMUTE_64 = VectorOp::both("vpermq", P66, 3, 0x00).wide_256();
     // Choice and order of lanes.
     BLEND = VectorOp::both("vblendmps", P66, 2, 0x65).evex_only();
+    BLEND_WORDS = VectorOp::both("vpblendd", P66, 3, 0x02).vex_only();
     BLEND_BY_SIGN = VectorOp::both("vblendvps", P66, 3, 0x4A).vex_only();
+    SHUFFLE_BYTES = VectorOp::both("vpshufb", P66, 2, 0x00);
     PERMUTE = VectorOp::both("vpermilps", P66, 3, 0x04);
     PERMUTE_TWO = VectorOp::both("vpermt2d", P66, 2, 0x7E).evex_only();
     BROADCAST = VectorOp::both("vbroadcastss", P66, 2, 0x18).tuple(Tuple::Bytes(4));
@@ -235,6 +241,7 @@ impl VectorOp {
             &SQRT_F,
             &RECIPROCAL_ESTIMATE,
             &ROUND_F,
+            &ROUND_F64,
             &COUNT_ONES,
             &LEADING_ZEROS,
             &F32_FROM_S32,

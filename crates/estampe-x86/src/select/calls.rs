@@ -12,7 +12,7 @@ use crate::frame::{MASK_ARGUMENT, MASK_RESULT, PACKET, SECOND_MASK_ARGUMENT, dis
 use crate::machine::{Instruction, Memory, MemoryBase};
 use estampe_ir::interpreter::Common;
 use estampe_ir::lanes::Kernel;
-use estampe_ir::op::{Atomic, Binary, Memory as Shared, TextureOp, Unary};
+use estampe_ir::op::{Atomic, Memory as Shared, TextureOp};
 use estampe_ir::{Op, Type, Value};
 use std::ops::Range;
 
@@ -34,25 +34,12 @@ pub(crate) struct Served {
 /// What a call asks for.
 #[derive(Debug, Clone)]
 pub(crate) enum Kind {
-    Unary(Unary),
-    Binary(Binary),
     /// Offset and word.
-    Store {
-        memory: Shared,
-    },
-    /// Index and word.
-    StoreLocal {
-        array: u32,
-    },
+    Store { memory: Shared },
     /// Offset and operand; a word.
-    Atomic {
-        kind: Atomic,
-        memory: Shared,
-    },
+    Atomic { kind: Atomic, memory: Shared },
     /// Offset, expected word and new word; a word and a mask.
-    CompareExchange {
-        memory: Shared,
-    },
+    CompareExchange { memory: Shared },
     /// Accesses to textures in the same lanes, none of which needs another's results.
     Textures(Vec<TextureOp>, Common),
 }
@@ -73,15 +60,12 @@ impl Served {
 impl Kind {
     fn new(op: &Op) -> Option<Self> {
         Some(match op {
-            Op::Unary(kind, _) => Self::Unary(*kind),
-            Op::Binary(kind, _) => Self::Binary(*kind),
             Op::StoreBuffer { buffer, .. } => Self::Store {
                 memory: Shared::Buffer(*buffer),
             },
             Op::StoreWorkgroup { .. } => Self::Store {
                 memory: Shared::Workgroup,
             },
-            Op::StoreLocal { array, .. } => Self::StoreLocal { array: *array },
             Op::Atomic { kind, memory, .. } => Self::Atomic {
                 kind: *kind,
                 memory: *memory,
@@ -115,6 +99,10 @@ pub(super) fn most_packets(kernel: &Kernel, plan: &Plan, lanes: usize) -> u32 {
     let of_block = |ops: &[(Op, Value)]| {
         let (mut most, mut joined) = (0, 0);
         for (op, _) in ops {
+            // No call, but lane by lane its numbers and words are where the packets of calls are.
+            if matches!(op, Op::StoreLocal { .. }) {
+                most = most.max(2);
+            }
             let Some(served) = Served::new(op) else {
                 continue;
             };

@@ -1,4 +1,5 @@
-//! Integer division with AVX-512, by binary64: eight lanes at a time.
+//! Integer division by binary64: eight lanes at a time with AVX-512, [four](super::pair_division)
+//! with AVX2.
 //!
 //! A quotient of two 32-bit integers, rounded to binary64 and then towards 0, is exact. Below a
 //! whole number n, a ÷ b ends at least 1 ÷ b before it, while the rounding moves it by at most
@@ -38,50 +39,59 @@ fn conversions(is_signed: bool) -> (&'static VectorOp, &'static VectorOp) {
 }
 
 impl Selector<'_> {
-    /// A quotient or remainder; `None` where it is a call.
-    pub(super) fn divide(&mut self, kind: Binary, [a, b]: [Value; 2], half: usize) -> Option<VReg> {
-        if self.isa == Isa::Avx2 {
-            return None;
-        }
+    /// A quotient or remainder.
+    pub(super) fn divide(&mut self, kind: Binary, [a, b]: [Value; 2], half: usize) -> VReg {
         let is_signed = matches!(kind, Binary::SDiv | Binary::SRem);
         let is_remainder = matches!(kind, Binary::SRem | Binary::URem);
         let is_splat = self.plan.is_splat(b);
         let [a, b] = [a, b].map(|value| self.word_register(value, half));
-        let [lower, upper] = if is_splat {
-            self.quotients_by_one(a, b, is_signed)
-        } else {
-            let lower = self.quotient([a, b], is_signed);
-            let uppers = [a, b].map(|vector| self.two_vectors(vector, UPPER, vector));
-            [lower, self.quotient(uppers, is_signed)]
+        let quotient = match (self.isa, is_splat) {
+            (Isa::Avx2, true) => self.quotients_of_pairs_by_one([a, b], is_signed),
+            (Isa::Avx2, false) => self.quotients_of_pairs([a, b], is_signed),
+            (Isa::Avx512, true) => self.quotients_by_one([a, b], is_signed),
+            (Isa::Avx512, false) => self.quotients([a, b], is_signed),
         };
-        let quotient = self.two_vectors(lower, LOWER, upper);
         // Nothing is divided by 0: the quotient is then a, and the remainder 0.
         let zero = self.zero();
         let is_zero = self.compare_equal(b, zero);
         if !is_remainder {
-            return Some(self.blend(is_zero, Source::Register(a), quotient));
+            return self.blend(is_zero, Source::Register(a), quotient);
         }
         let whole = self.two(&vector_op::MUL, quotient, Source::Register(b));
         let rest = self.two(&vector_op::SUB, a, Source::Register(whole));
-        Some(self.blend(is_zero, Source::Register(zero), rest))
+        self.blend(is_zero, Source::Register(zero), rest)
     }
 
-    /// The quotients of the lower and of the upper eight lanes by a word that is the same in all.
-    fn quotients_by_one(&mut self, a: VReg, b: VReg, is_signed: bool) -> [VReg; 2] {
+    /// The quotients of sixteen lanes by a word that is the same in all.
+    fn quotients_by_one(&mut self, [a, b]: [VReg; 2], is_signed: bool) -> VReg {
         let (to, from) = conversions(is_signed);
         let b = self.in_registers(to, b);
-        let one = self.constant_lanes(&ONES);
-        let one = self.in_register(one);
-        let inverse = self.two(&vector_op::DIV_F64, one, Source::Register(b));
-        // The next number away from 0.
-        let next = self.constant_lanes(&NEXT);
-        let inverse = self.two(&vector_op::ADD_64, inverse, next);
+        let inverse = self.above_inverse(b);
         let upper = self.two_vectors(a, UPPER, a);
-        [a, upper].map(|a| {
+        let [lower, upper] = [a, upper].map(|a| {
             let a = self.in_registers(to, a);
             let quotient = self.two(&vector_op::MUL_F64, a, Source::Register(inverse));
             self.in_registers(from, quotient)
-        })
+        });
+        self.two_vectors(lower, LOWER, upper)
+    }
+
+    /// 1 ÷ b in binary64, and the next number away from 0.
+    pub(super) fn above_inverse(&mut self, b: VReg) -> VReg {
+        let lanes = self.isa.lanes();
+        let one = self.constant_lanes(&ONES[..lanes]);
+        let one = self.in_register(one);
+        let inverse = self.two(&vector_op::DIV_F64, one, Source::Register(b));
+        let next = self.constant_lanes(&NEXT[..lanes]);
+        self.two(&vector_op::ADD_64, inverse, next)
+    }
+
+    /// The quotients of sixteen lanes.
+    fn quotients(&mut self, pair: [VReg; 2], is_signed: bool) -> VReg {
+        let lower = self.quotient(pair, is_signed);
+        let uppers = pair.map(|vector| self.two_vectors(vector, UPPER, vector));
+        let upper = self.quotient(uppers, is_signed);
+        self.two_vectors(lower, LOWER, upper)
     }
 
     /// The quotients of the lower eight lanes.
@@ -117,12 +127,10 @@ impl Selector<'_> {
     }
 
     fn compare_equal(&mut self, a: VReg, b: VReg) -> VReg {
-        let equal = Some(0);
-        self.emit(
-            (&vector_op::COMPARE_U, MASK),
-            Some(a),
-            Source::Register(b),
-            equal,
-        )
+        let b = Source::Register(b);
+        match self.isa {
+            Isa::Avx2 => self.two(&vector_op::EQUAL, a, b),
+            Isa::Avx512 => self.emit((&vector_op::COMPARE_U, MASK), Some(a), b, Some(0)),
+        }
     }
 }

@@ -39,11 +39,14 @@
 //! | [`halves`] | conversions of binary16 |
 //! | [`lane_loops`] | stores and atomic operations |
 //! | [`masks`] | comparisons and operations on masks |
-//! | [`division`] | integer division |
+//! | [`division`], [`pair_division`] | integer division, with AVX2 by pairs of words |
+//! | [`bits`] | counts of bits, and their order |
 //! | [`inverse_root`] | reciprocals of square roots |
-//! | [`memory`] | inputs, outputs, buffers and arrays |
+//! | [`memory`] | inputs, outputs and buffers |
+//! | [`locals`] | arrays of the lanes |
 //! | [`calls`] | calls of what code does not do itself |
 
+mod bits;
 pub(crate) mod calls;
 mod division;
 pub(crate) mod exact_products;
@@ -52,10 +55,12 @@ mod functions;
 mod halves;
 mod inverse_root;
 mod lane_loops;
+mod locals;
 mod masks;
 mod memory;
 mod operands;
 mod overlap;
+mod pair_division;
 mod plan;
 mod quadruples;
 mod schedule;
@@ -389,6 +394,16 @@ impl Selector<'_> {
         if self.effect_on_memory(op, first) {
             return Ok(());
         }
+        if let Op::StoreLocal {
+            array,
+            index,
+            value,
+            mask,
+        } = *op
+        {
+            self.store_local(array, [index, value, mask]);
+            return Ok(());
+        }
         if matches!(op, Op::LoadBuffer { .. } | Op::LoadWorkgroup(_))
             && (self.group(first) || self.uniform_group(first))
         {
@@ -420,8 +435,8 @@ impl Selector<'_> {
     /// A half of an operation's result; `None` if a call does it.
     fn half_of(&mut self, op: &Op, half: usize) -> Option<VReg> {
         match op {
-            Op::Unary(kind, a) => self.unary(*kind, *a, half),
-            Op::Binary(kind, pair) => self.binary(*kind, *pair, half),
+            Op::Unary(kind, a) => Some(self.unary(*kind, *a, half)),
+            Op::Binary(kind, pair) => Some(self.binary(*kind, *pair, half)),
             Op::Fma(three) => Some(self.fma(*three, half)),
             Op::Select { mask, yes, no } => Some(self.select(*mask, [*yes, *no], half)),
             Op::Derivative {

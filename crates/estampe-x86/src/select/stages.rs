@@ -15,7 +15,6 @@ use super::schedule::latency;
 use super::{Selector, is_in_loop};
 use crate::{CompileError, Isa};
 use estampe_ir::lanes::{BasicBlock, Kernel};
-use estampe_ir::op::{Binary, Unary};
 use estampe_ir::{Op, Value};
 use std::collections::HashMap;
 use std::ops::Range;
@@ -101,16 +100,8 @@ impl Selector<'_> {
     /// The number of operations, from the first on, that each part does by itself or all share.
     pub(super) fn apart(&self, ops: &[&(Op, Value)]) -> usize {
         let is_apart = |(op, first): &&&(Op, Value)| match op {
-            Op::Unary(Unary::ReverseBits, _) => false,
-            // Calls with AVX2.
-            Op::Unary(Unary::CountOnes | Unary::LeadingZeros | Unary::TrailingZeros, _) => {
-                self.isa == Isa::Avx512
-            }
-            Op::Unary(..) => true,
-            Op::Binary(Binary::SDiv | Binary::SRem | Binary::UDiv | Binary::URem, _) => {
-                self.isa == Isa::Avx512
-            }
-            Op::Binary(..)
+            Op::Unary(..)
+            | Op::Binary(..)
             | Op::Fma(_)
             | Op::Select { .. }
             | Op::Derivative { .. }

@@ -19,9 +19,9 @@ const TWO_16: u32 = 0x4780_0000;
 const SIGN: u32 = 1 << 31;
 
 impl Selector<'_> {
-    /// An operation of one word; `None` if it is served by a call.
-    pub(super) fn unary(&mut self, kind: Unary, a: Value, half: usize) -> Option<VReg> {
-        let result = match kind {
+    /// An operation of one word.
+    pub(super) fn unary(&mut self, kind: Unary, a: Value, half: usize) -> VReg {
+        match kind {
             Unary::FNeg => self.with_constant(self.logic_of_floats(Binary::Xor), (a, half), SIGN),
             Unary::FAbs => self.with_constant(self.logic_of_floats(Binary::And), (a, half), !SIGN),
             Unary::Not => self.with_constant(&vector_op::XOR, (a, half), u32::MAX),
@@ -66,9 +66,11 @@ impl Selector<'_> {
                 let below = self.two(&vector_op::AND_NOT, a, Source::Register(before));
                 self.one(&vector_op::COUNT_ONES, Source::Register(below))
             }
-            _ => return None,
-        };
-        Some(result)
+            Unary::CountOnes => self.count_ones(a, half),
+            Unary::LeadingZeros => self.leading_zeros(a, half),
+            Unary::TrailingZeros => self.trailing_zeros(a, half),
+            Unary::ReverseBits => self.reverse_bits(a, half),
+        }
     }
 
     /// An operation on the bits of floats. Zen 3 takes a cycle to hand a result from the units for
@@ -163,17 +165,17 @@ impl Selector<'_> {
         self.two(&vector_op::ADD_F, high, Source::Register(low))
     }
 
-    /// An operation of two words; `None` if it is served by a call.
-    pub(super) fn binary(&mut self, kind: Binary, pair: [Value; 2], half: usize) -> Option<VReg> {
+    /// An operation of two words.
+    pub(super) fn binary(&mut self, kind: Binary, pair: [Value; 2], half: usize) -> VReg {
         if self.is_inverse_root(kind, pair) {
-            return Some(self.inverse_of_root(pair[1], half));
+            return self.inverse_of_root(pair[1], half);
         }
         let [a, b] = pair;
         if kind == Binary::Mul {
             for [a, factor] in [[a, b], [b, a]] {
                 if let Some(bits) = self.shift_of_factor(factor) {
                     let a = self.word_register(a, half);
-                    return Some(self.shift_by(&vector_op::SHL_BY, a, bits));
+                    return self.shift_by(&vector_op::SHL_BY, a, bits);
                 }
             }
         }
@@ -200,17 +202,15 @@ impl Selector<'_> {
             Binary::SMax => (&vector_op::MAX_S, true),
             Binary::UMin => (&vector_op::MIN_U, true),
             Binary::UMax => (&vector_op::MAX_U, true),
-            Binary::Shl => {
-                return Some(self.shift([&vector_op::SHL, &vector_op::SHL_BY], pair, half));
-            }
+            Binary::Shl => return self.shift([&vector_op::SHL, &vector_op::SHL_BY], pair, half),
             Binary::UShr => {
-                return Some(self.shift([&vector_op::SHR_U, &vector_op::SHR_U_BY], pair, half));
+                return self.shift([&vector_op::SHR_U, &vector_op::SHR_U_BY], pair, half);
             }
             Binary::SShr => {
-                return Some(self.shift([&vector_op::SHR_S, &vector_op::SHR_S_BY], pair, half));
+                return self.shift([&vector_op::SHR_S, &vector_op::SHR_S_BY], pair, half);
             }
-            Binary::UMulHigh => return Some(self.high(&vector_op::MUL_U64, pair, half)),
-            Binary::SMulHigh => return Some(self.high(&vector_op::MUL_S64, pair, half)),
+            Binary::UMulHigh => return self.high(&vector_op::MUL_U64, pair, half),
+            Binary::SMulHigh => return self.high(&vector_op::MUL_S64, pair, half),
             Binary::SDiv | Binary::SRem | Binary::UDiv | Binary::URem => {
                 return self.divide(kind, pair, half);
             }
@@ -229,7 +229,7 @@ impl Selector<'_> {
         } else {
             self.word(b, half)
         };
-        Some(self.two(op, first, second))
+        self.two(op, first, second)
     }
 
     /// The shift that is a product with a constant power of two: a cycle in place of ten.

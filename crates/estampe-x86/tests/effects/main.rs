@@ -285,11 +285,19 @@ fn arrays_of_lanes() {
         },
     ];
     let [index, value, other] = [0, 1, 2].map(|at| b.input(Input::Varying(at)));
-    let mask = b.input(Input::FrontFacing);
-    let [two, nine] = [b.word(2), b.word(9)];
+    let [mask, always] = [b.input(Input::FrontFacing), b.mask(true)];
+    let [two, three, nine] = [2, 3, 9].map(|word| b.word(word));
     // The last array but one is a table; the first one has no words, and nor has the last.
     for array in [0, 1] {
-        for index in [index, two, nine] {
+        let stores = [
+            (three, other, always),
+            (index, value, mask),
+            (two, value, mask),
+            (nine, value, mask),
+            (other, index, always),
+            (nine, value, always),
+        ];
+        for (index, value, mask) in stores {
             b.op(Op::StoreLocal {
                 array,
                 index,
@@ -300,7 +308,7 @@ fn arrays_of_lanes() {
     }
     let mut results = Vec::new();
     for array in [0, 1, 2, 3] {
-        for index in [index, other, two, nine] {
+        for index in [index, other, two, three, nine] {
             results.push(b.op1(Op::LoadLocal { array, index }));
         }
     }

@@ -179,6 +179,8 @@ fn test_operation(
                 .collect();
             let result = build(&mut builder, &values);
             let tree = builder.finish(vec![(Output::Varying(0), result)]);
+            let calls = selection::count(&tree, isa, iced_x86::Mnemonic::Call);
+            assert_eq!(calls, 0, "{name} {isa:?} {given:?}");
             let found = run(&tree, (isa, tier), &inputs);
             for (packet, lane) in
                 (0..PACKETS).flat_map(|packet| (0..16).map(move |lane| (packet, lane)))

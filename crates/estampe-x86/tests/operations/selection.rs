@@ -66,7 +66,7 @@ fn inverse_square_roots() {
 }
 
 /// The instructions of a mnemonic in code of a tree.
-fn count(tree: &Tree, isa: Isa, mnemonic: iced_x86::Mnemonic) -> usize {
+pub(crate) fn count(tree: &Tree, isa: Isa, mnemonic: iced_x86::Mnemonic) -> usize {
     let code = Code::compile(&Kernel::from_tree(tree), isa, Tier::Optimised).unwrap();
     let decoder = iced_x86::Decoder::new(64, code.instructions(), iced_x86::DecoderOptions::NONE);
     let instructions = decoder.into_iter();
@@ -204,7 +204,7 @@ fn divisions_by_one_word() {
                     assert_eq!(found, wanted, "{isa:?}: {kind:?} of {x:x} and {divisor:x}");
                 }
                 let products = count(&tree, isa, iced_x86::Mnemonic::Vmulpd);
-                assert_eq!(products > 0, isa == Isa::Avx512);
+                assert!(products > 0, "{isa:?}: {kind:?}");
             }
         }
     }
