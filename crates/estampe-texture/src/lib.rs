@@ -86,6 +86,7 @@ mod request;
 mod request_batch;
 mod rgba8_texture;
 mod storage;
+mod storage_packets;
 mod texel;
 mod unorm8;
 mod upload;
@@ -113,6 +114,7 @@ pub use storage::{
     create_storage_texture, is_storable, storage_bytes, storage_load, storage_store,
     storage_texture_to_texture,
 };
+pub use storage_packets::{load_packet, store_packet};
 pub use unorm8::{store_unorm8, stored_unorm8_words};
 pub use upload::LevelData;
 pub use view::{

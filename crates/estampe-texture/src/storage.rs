@@ -176,7 +176,7 @@ fn store_lanes(texture: &StorageTexture, places: &Places, texels: &Answers) {
 }
 
 /// The format in which texels are stored: R first.
-fn stored(texture: &StorageTexture) -> TextureFormat {
+pub(crate) fn stored(texture: &StorageTexture) -> TextureFormat {
     match texture.format() {
         TextureFormat::Bgra8Unorm => TextureFormat::Rgba8Unorm,
         format => format,

@@ -117,6 +117,9 @@ impl Code {
         debug_assert_eq!(lanes::verify(kernel), Ok(()), "blocks are split well");
         let expanded = select::expand::expand(kernel, MAX_SIZE)?;
         let kernel = expanded.as_ref().unwrap_or(kernel);
+        let divided = select::known_divisors::replace(kernel);
+        let kernel = divided.as_ref().unwrap_or(kernel);
+        debug_assert_eq!(lanes::verify(kernel), Ok(()), "divisions are replaced well");
         let fused = select::exact_products::fuse(kernel);
         let kernel = fused.as_ref().unwrap_or(kernel);
         let Selected {

@@ -5,10 +5,13 @@ use super::textures::BoundTextures;
 use estampe_ir::interpreter::{TextureAccess, TextureAccesses};
 use estampe_ir::op::TextureQuery;
 use estampe_simd::{
-    Bytes, LANES, Lanes, Packet, SimdBase, dispatch, f32x16, floats_of_mut, i32x16, ints_of,
-    mask32x16, u32x16,
+    Bytes, LANES, Lanes, Packet, SimdBase, dispatch, f32x16, floats_of, floats_of_mut, i32x16,
+    ints_of, mask32x16, u32x16,
 };
-use estampe_texture::{TexelView, TextureBindings, storage_load, storage_store, store_unorm8};
+use estampe_texture::{
+    TexelView, TextureBindings, load_packet, storage_load, storage_store, store_packet,
+    store_unorm8,
+};
 use estampe_types::Vec4;
 
 impl BoundTextures<'_> {
@@ -29,7 +32,7 @@ impl BoundTextures<'_> {
                     return false;
                 };
                 view.is_unorm8() && dispatch!(level, s => load_common(s, view, access))
-                    || load_packet(view, access)
+                    || load_viewed(view, access)
             }
             TextureQuery::Store => dispatch!(level, s => self.store_common(s, access, mask)),
             _ => false,
@@ -131,6 +134,55 @@ impl BoundTextures<'_> {
             storage_store(texture, mask, at, Vec4::new(x, y, z, w));
         }
     }
+
+    /// Loads from or stores to a storage texture packet by packet; false if that is not what is
+    /// asked, or the SIMD level has no code for it, and nothing is done.
+    pub(super) fn access_stored(&self, access: &mut TextureAccess<'_>) -> bool {
+        let (group, binding) = self.slot(access);
+        let Some(texture) = self.bindings.storage_texture(group, binding) else {
+            return false;
+        };
+        let is_store = match access.op.query {
+            TextureQuery::Store => true,
+            TextureQuery::Load => false,
+            _ => return false,
+        };
+        if access.op.offset != [0; 3] {
+            return false;
+        }
+        let level = access.level;
+        for packet in 0..access.packets {
+            let at = places(access, packet);
+            if is_store {
+                let texels = [0, 1, 2, 3].map(|k| &floats_of(access.stored(k))[packet]);
+                if !store_packet(texture, level, (at, access.mask[packet]), texels) {
+                    return false;
+                }
+                continue;
+            }
+            let mut texels = [Packet::default(); 4];
+            if !load_packet(texture, level, at, &mut texels) {
+                return false;
+            }
+            for (k, texel) in texels.iter().enumerate().take(access.results()) {
+                floats_of_mut(access.result_mut(k))[packet] = *texel;
+            }
+        }
+        true
+    }
+}
+
+/// The coordinates of a packet's texels, with the layer after them.
+fn places<'a>(access: &TextureAccess<'a>, packet: usize) -> [&'a Packet<i32>; 3] {
+    let mut at = [&ZEROS; 3];
+    let count = access.op.coordinates.len();
+    for (axis, place) in at.iter_mut().enumerate().take(count) {
+        *place = &ints_of(access.coordinate(axis))[packet];
+    }
+    if let Some(layer) = access.layer() {
+        at[2] = &ints_of(layer)[packet];
+    }
+    at
 }
 
 /// Loads a packet of texels of the finest level; false if that is not what is asked.
@@ -149,9 +201,9 @@ fn load_common<S: Lanes>(s: S, view: &TexelView, access: &mut TextureAccess<'_>)
     true
 }
 
-/// Loads a packet of texels of any format but integers; false if they cannot be loaded together,
-/// and nothing is done.
-fn load_packet(view: &TexelView, access: &mut TextureAccess<'_>) -> bool {
+/// Loads a packet of texels of any format; false if they cannot be loaded together, and nothing is
+/// done.
+fn load_viewed(view: &TexelView, access: &mut TextureAccess<'_>) -> bool {
     let [x, y] = [0, 1].map(|at| ints_of(access.coordinate(at)).first());
     let [mip, sample] = [access.level_of_detail(), access.sample()].map(first_or_zeros);
     let (Some(x), Some(y), Some(mip), Some(sample)) = (x, y, mip, sample) else {

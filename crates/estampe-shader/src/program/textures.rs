@@ -110,7 +110,7 @@ impl Textures for BoundTextures<'_> {
             }
             return;
         }
-        if self.common_access(&mut access) {
+        if self.common_access(&mut access) || self.access_stored(&mut access) {
             return;
         }
         clear(&mut access);

@@ -1,11 +1,13 @@
 //! Fetches of sixteen texels at once, with the results of the scalar code in `fetch.rs`: of every
-//! format that [`PacketFormat`] decodes, in every dimension, if all lanes read the same mip level
-//! of a texture with one sample.
+//! format that [`PacketFormat`] decodes and of integers, in every dimension, if all lanes read the
+//! same mip level of a texture with one sample.
 
 use super::blocks::rows_of_halves;
 use super::coordinates::{Answers, packet};
 use super::packet_texel::{OTHERS, PacketFormat, RGBA8, RGBA8_SRGB, RGBA16F};
 use super::plane::{Plane, TexelView};
+use estampe_format::attachment::Family;
+use estampe_format::{AttachmentCodec, PacketCodec};
 use estampe_simd::{
     Bytes, LANE_X, LANE_Y, LANES, Lanes as SimdLanes, Level, Packet, SimdBase, dispatch, f32x16,
     i32x16, mask32x16, u32x16,
@@ -14,7 +16,7 @@ use estampe_types::{Int, ViewDimension};
 
 impl TexelView {
     /// Fetches sixteen texels at a SIMD level, as [`fetch`](Self::fetch) does: x, y, z, level and
-    /// sample of each. `false`, with nothing stored, if packet code cannot do it: for integers, and
+    /// sample of each. `false`, with nothing stored, if packet code cannot do it: for stencil, and
     /// where lanes read several levels or a multisampled texture.
     pub fn fetch_packet(
         &self,
@@ -22,9 +24,6 @@ impl TexelView {
         [x, y, z, mips, samples]: [&Packet<i32>; 5],
         texels: &mut [Packet<f32>; 4],
     ) -> bool {
-        let Some(format) = self.packets else {
-            return false;
-        };
         let plane = usize::try_from(mips.0[0]).ok();
         let Some(plane) = plane.and_then(|mip| self.planes.get(mip)) else {
             return false;
@@ -33,12 +32,19 @@ impl TexelView {
         if !is_uniform || self.texture.shape.samples != 1 || self.texture.texels.is_empty() {
             return false;
         }
+        let words = i32::try_from(self.codec.words()).unwrap_or(1);
         let fetch = PacketFetch {
             view: self,
-            format,
+            words,
             plane,
             places: [x, y, z],
         };
+        let Some(format) = self.packets else {
+            return self
+                .integers
+                .is_some_and(|codec| fetch.enter_integers(level, codec, texels));
+        };
+        let fetch = NumberFetch { of: fetch, format };
         match (format.components, format.kind()) {
             (1, _) => fetch.enter::<1>(level, texels),
             (_, RGBA8) => fetch.enter_special::<RGBA8>(level, texels),
@@ -67,12 +73,19 @@ pub(super) const fn times(of: [u8; LANES], factor: u32) -> [u32; LANES] {
 /// A request for sixteen texels of a level.
 struct PacketFetch<'a> {
     view: &'a TexelView,
-    format: PacketFormat,
+    /// The words of a texel.
+    words: i32,
     plane: &'a Plane,
     places: [&'a Packet<i32>; 3],
 }
 
-impl PacketFetch<'_> {
+/// The same, of a format that is no integer.
+struct NumberFetch<'a> {
+    of: PacketFetch<'a>,
+    format: PacketFormat,
+}
+
+impl NumberFetch<'_> {
     /// Fetches with the code for all formats of up to `C` channels; the scalar SIMD level has none.
     fn enter<const C: usize>(&self, level: Level, texels: &mut Answers) -> bool {
         dispatch!(@wide_move level, s => {
@@ -91,6 +104,66 @@ impl PacketFetch<'_> {
 
     #[inline(always)]
     fn fetch<S: SimdLanes, const C: usize, const KIND: u8>(&self, s: S, texels: &mut Answers) {
+        let (index, is_outside) = self.of.index(s);
+        if KIND == RGBA16F
+            && s.bits_of_mask(is_outside) == 0
+            && let Some(block) = self.of.block_of_halves(s, index)
+        {
+            for k in 0..4 {
+                texels[k] = packet(block[k], 0);
+            }
+            return;
+        }
+        let alpha = <f32x16<S> as SimdBase<S>>::splat(s, 1.0);
+        let words = self.of.words(s, index);
+        let mut units = [<f32x16<S> as SimdBase<S>>::splat(s, 0.0); C];
+        self.format.units::<S, C, KIND>(s, &words, &mut units);
+        let scale = self.of.view.codec.scale();
+        for (k, unit) in units.into_iter().enumerate() {
+            // A channel that the format does not store is 0, or 1 if it is alpha.
+            texels[k] = match k {
+                k if k < self.format.components => zero_where(is_outside, unit * scale[k]),
+                3 => zero_where(is_outside, alpha),
+                _ => Packet::default(),
+            };
+        }
+        if C == 1 {
+            (texels[1], texels[2]) = (Packet::default(), Packet::default());
+            texels[3] = zero_where(is_outside, alpha);
+        }
+    }
+}
+
+impl PacketFetch<'_> {
+    /// Fetches integers; the scalar SIMD level has no code for it.
+    fn enter_integers(&self, level: Level, codec: AttachmentCodec, texels: &mut Answers) -> bool {
+        dispatch!(@wide_move level, s => match codec.family() {
+            Family::Bits1(codec) => self.fetch_integers(s, codec, texels),
+            Family::Bits2(codec) => self.fetch_integers(s, codec, texels),
+            Family::Bits4(codec) => self.fetch_integers(s, codec, texels),
+            _ => false,
+        }, scalar => false)
+    }
+
+    #[inline(always)]
+    fn fetch_integers<S: SimdLanes>(
+        &self,
+        s: S,
+        codec: impl PacketCodec<S>,
+        texels: &mut Answers,
+    ) -> bool {
+        let (index, is_outside) = self.index(s);
+        let channels = codec.decode(s, self.words(s, index));
+        for k in 0..4 {
+            texels[k] = zero_where(is_outside, channels[k]);
+        }
+        true
+    }
+
+    /// The first word of each lane's texel, of lanes outside the level any number, as gathers clamp
+    /// theirs; and the lanes outside.
+    #[inline(always)]
+    fn index<S: SimdLanes>(&self, s: S) -> (u32x16<S>, mask32x16<S>) {
         use ViewDimension as V;
         let (view, plane) = (self.view, self.plane);
         let zero: i32x16<S> = SimdBase::splat(s, 0);
@@ -100,7 +173,6 @@ impl PacketFetch<'_> {
             _ if view.is_cube() => view.layers * 6,
             _ => view.layers,
         };
-        // The index of the texel; of lanes outside the level any number, as gathers clamp theirs.
         let x = self.place(s, 0);
         let mut index = x;
         let y = match view.dimension {
@@ -114,37 +186,10 @@ impl PacketFetch<'_> {
         let slice = z + Int::splat(zero, view.base_layer.cast_signed());
         let row = Int::wrapping_mul(slice, Int::splat(zero, height)) + y;
         index += Int::wrapping_mul(row, Int::splat(zero, width));
-        let size = self.format.words;
-        let begin = Int::splat(zero, plane.begin_words(size));
-        let index: u32x16<S> = (Int::wrapping_mul(index, Int::splat(zero, size)) + begin).bitcast();
-
-        let alpha = <f32x16<S> as SimdBase<S>>::splat(s, 1.0);
+        let begin = Int::splat(zero, plane.begin_words(self.words));
+        let first = Int::wrapping_mul(index, Int::splat(zero, self.words)) + begin;
         let is_outside = x.is_outside(width) | y.is_outside(height) | z.is_outside(slices);
-        if KIND == RGBA16F
-            && s.bits_of_mask(is_outside) == 0
-            && let Some(block) = self.block_of_halves(s, index)
-        {
-            for k in 0..4 {
-                texels[k] = packet(block[k], 0);
-            }
-            return;
-        }
-        let words = self.words(s, index);
-        let mut units = [<f32x16<S> as SimdBase<S>>::splat(s, 0.0); C];
-        self.format.units::<S, C, KIND>(s, &words, &mut units);
-        let scale = view.codec.scale();
-        for (k, unit) in units.into_iter().enumerate() {
-            // A channel that the format does not store is 0, or 1 if it is alpha.
-            texels[k] = match k {
-                k if k < self.format.components => zero_where(is_outside, unit * scale[k]),
-                3 => zero_where(is_outside, alpha),
-                _ => Packet::default(),
-            };
-        }
-        if C == 1 {
-            (texels[1], texels[2]) = (Packet::default(), Packet::default());
-            texels[3] = zero_where(is_outside, alpha);
-        }
+        (first.bitcast(), is_outside)
     }
 
     /// The channels of a packet whose texels are a block of 4×4, as its lanes are: four rows of
@@ -175,7 +220,7 @@ impl PacketFetch<'_> {
     fn words<S: SimdLanes>(&self, s: S, index: u32x16<S>) -> [u32x16<S>; 4] {
         let texels = &self.view.texture.texels[..];
         let mut words = [<u32x16<S> as SimdBase<S>>::splat(s, 0); 4];
-        match self.format.words {
+        match self.words {
             1 => words[0] = s.gather(texels, index),
             2 => {
                 let next = index + <u32x16<S> as SimdBase<S>>::splat(s, 1);

@@ -2,7 +2,7 @@
 
 use super::packet_texel::PacketFormat;
 use crate::TextureError;
-use estampe_format::TexelCodec;
+use estampe_format::{AttachmentCodec, TexelCodec};
 use estampe_simd::Level;
 use estampe_types::{
     TexelData, TexelViewDescriptor, TextureAspect, TextureDimension, TextureFormat, ViewDimension,
@@ -40,6 +40,8 @@ pub struct TexelView {
     pub(crate) codec: TexelCodec,
     /// How packet code decodes the texels; `None` for integers.
     pub(crate) packets: Option<PacketFormat>,
+    /// How packet code decodes integers that are colours; `None` for other texels.
+    pub(crate) integers: Option<AttachmentCodec>,
     /// True if texels are four unorm bytes, in two dimensions, with one sample.
     pub(crate) is_unorm8: bool,
     /// True if the view contains all layers and levels of the texture.
@@ -132,6 +134,8 @@ impl TexelView {
             base_layer: first,
             layers: layers.cast_signed(),
             packets: PacketFormat::new(stored, &codec),
+            integers: (codec.is_integer() && stored.is_renderable() && stored.is_color())
+                .then(|| AttachmentCodec::new(stored)),
             codec,
             is_unorm8,
             is_whole,

@@ -20,6 +20,7 @@ mod pixel_blocks;
 mod requests;
 mod several;
 mod squares;
+mod storage_packets;
 mod taps;
 mod tiled_texels;
 mod unorm8;

@@ -18,6 +18,7 @@ pub struct StorageTexture {
     shape: TextureShape,
     width: u32,
     height: u32,
+    words_per_texel: usize,
     words: Arc<Vec<AtomicU32>>,
 }
 
@@ -39,11 +40,14 @@ impl StorageTexture {
             },
             width,
             height,
+            words_per_texel: super::shape::stored_format(format)
+                .block_bytes()
+                .div_ceil(4) as usize,
             words: Arc::default(),
         };
         let slice = (width as usize).checked_mul(height as usize)?;
         let texels = slice.checked_mul(depth_or_layers as usize)?;
-        let count = texels.checked_mul(made.words_per_texel())?;
+        let count = texels.checked_mul(made.words_per_texel)?;
         let mut words = Vec::new();
         words.try_reserve_exact(count).ok()?;
         advise_huge_pages(words.spare_capacity_mut());
@@ -85,9 +89,7 @@ impl StorageTexture {
     /// Words per texel, as in a [`TexelData`](super::TexelData).
     #[must_use]
     pub const fn words_per_texel(&self) -> usize {
-        super::shape::stored_format(self.format)
-            .block_bytes()
-            .div_ceil(4) as usize
+        self.words_per_texel
     }
 
     /// Index of the first word of texel (x, y) of a slice (a layer, or a depth); `None` outside the
@@ -101,7 +103,7 @@ impl StorageTexture {
             return None;
         }
         let row = slice as usize * self.height as usize + y as usize;
-        Some((row * self.width as usize + x as usize) * self.words_per_texel())
+        Some((row * self.width as usize + x as usize) * self.words_per_texel)
     }
 
     /// Loads a word; 0 beyond the end.

@@ -40,6 +40,7 @@
 //! | [`lane_loops`] | stores and atomic operations |
 //! | [`masks`] | comparisons and operations on masks |
 //! | [`division`], [`pair_division`] | integer division, with AVX2 by pairs of words |
+//! | [`known_divisors`] | divisions by constants, as products |
 //! | [`bits`] | counts of bits, and their order |
 //! | [`inverse_root`] | reciprocals of square roots |
 //! | [`memory`] | inputs, outputs and buffers |
@@ -54,6 +55,7 @@ pub(crate) mod expand;
 mod functions;
 mod halves;
 mod inverse_root;
+pub(crate) mod known_divisors;
 mod lane_loops;
 mod locals;
 mod masks;

@@ -95,7 +95,7 @@ impl Selector<'_> {
     }
 
     /// The odd lanes of one vector among the even ones of another.
-    fn odd_lanes(&mut self, odd: Source, even: VReg) -> VReg {
+    pub(super) fn odd_lanes(&mut self, odd: Source, even: VReg) -> VReg {
         let blend = (&vector_op::BLEND_WORDS, VECTOR);
         self.emit(blend, Some(even), odd, Some(ODD))
     }

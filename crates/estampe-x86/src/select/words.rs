@@ -262,8 +262,16 @@ impl Selector<'_> {
         let [a, b] = pair.map(|value| self.word_register(value, half));
         let even = self.two(op, a, Source::Register(b));
         let even = self.shift_by(&vector_op::SHR_64_BY, even, 32);
-        let [a, b] = [a, b].map(|word| self.shift_by(&vector_op::SHR_64_BY, word, 32));
+        let [a, b] = [(a, pair[0]), (b, pair[1])].map(|(word, value)| {
+            if self.plan.is_splat(value) {
+                return word;
+            }
+            self.shift_by(&vector_op::SHR_64_BY, word, 32)
+        });
         let odd = self.two(op, a, Source::Register(b));
+        if self.isa == Isa::Avx2 {
+            return self.odd_lanes(Source::Register(odd), even);
+        }
         let is_odd: Vec<u32> = (0..self.isa.lanes())
             .map(|lane| if lane % 2 == 1 { u32::MAX } else { 0 })
             .collect();

@@ -209,3 +209,56 @@ fn divisions_by_one_word() {
         }
     }
 }
+
+/// By constants: products in place of quotients, but for divisors 0 and 1, and −1 and −2³¹.
+#[test]
+fn divisions_by_known_words() {
+    let random = &mut fastrand::Rng::with_seed(9);
+    let powers = (0..32).map(|bits| 1_u32 << bits);
+    let near = powers.flat_map(|power| [power.wrapping_neg(), power - 1, power, power + 1]);
+    let others: Vec<u32> = (0..60)
+        .map(|_| random.u32(..) >> random.u32(..31))
+        .collect();
+    let (mut products, mut quotients) = (0, 0);
+    for divisor in near.chain(2..60).chain(others) {
+        let mut inputs = vec![Packet([0; 16]); PACKETS * 3];
+        for word in inputs
+            .iter_mut()
+            .step_by(3)
+            .flat_map(|packet| &mut packet.0)
+        {
+            let multiple = random.u32(..).checked_div(divisor).unwrap_or(0);
+            let most = u32::MAX.checked_div(divisor).unwrap_or(0);
+            let multiple = random.choice([multiple, most, most / 2]).unwrap_or(0);
+            let near = random.u32(..3).wrapping_sub(1);
+            let sum = multiple.wrapping_mul(divisor).wrapping_add(near);
+            *word = random
+                .choice([sum, sum.wrapping_neg(), 1 << 31])
+                .unwrap_or(0);
+        }
+        for kind in [Binary::UDiv, Binary::URem, Binary::SDiv, Binary::SRem] {
+            let mut builder = Builder::new(Stage::Vertex);
+            let [x, by] = [builder.input(Input::Varying(0)), builder.word(divisor)];
+            let result = builder.binary(kind, x, by);
+            let tree = builder.finish(vec![(Output::Varying(0), result)]);
+            for isa in isas() {
+                let found = run(&tree, (isa, Tier::Optimised), &inputs);
+                let words = inputs.iter().step_by(3).flat_map(|packet| packet.0);
+                for (x, found) in words.zip(found.iter().flat_map(|packet| packet.0)) {
+                    let wanted = kind.evaluate([x, divisor]);
+                    assert_eq!(found, wanted, "{isa:?}: {kind:?} of {x:x} and {divisor:x}");
+                }
+                let is_signed = matches!(kind, Binary::SDiv | Binary::SRem);
+                let divides = count(&tree, isa, iced_x86::Mnemonic::Vmulpd) > 0;
+                let is_left = is_signed && matches!(divisor, u32::MAX | 0x8000_0000);
+                assert!(
+                    divides == is_left || divisor < 2,
+                    "{isa:?}: {kind:?} by {divisor:x}"
+                );
+                products += u32::from(!divides);
+                quotients += u32::from(divides);
+            }
+        }
+    }
+    assert!(isas().is_empty() || products > 1000 && quotients > 2);
+}
