@@ -282,6 +282,36 @@ fn functions_are_those_of_maths() {
             [sign, sign, u.min(1) as f32, 1.0]
         },
     );
+    check_expression("vec4f(unpack4xI8(pack4xI8(vec4i(v * 100.0))))", |v| {
+        v.map(|one| f32::from((one * 100.0) as i32 as i8))
+    });
+    check_expression("vec4f(unpack4xU8(pack4xU8(vec4u(abs(v) * 100.0))))", |v| {
+        v.map(|one| f32::from((one.abs() * 100.0) as u32 as u8))
+    });
+    check_expression("vec4f(unpack4xI8(pack4xI8Clamp(vec4i(v * 100.0))))", |v| {
+        v.map(|one| ((one * 100.0) as i32).clamp(-128, 127) as f32)
+    });
+    check_expression(
+        "vec4f(unpack4xU8(pack4xU8Clamp(vec4u(abs(v) * 100.0))))",
+        |v| v.map(|one| ((one.abs() * 100.0) as u32).min(255) as f32),
+    );
+    check_expression(
+        "vec4f(f32(dot4I8Packed(pack4xI8(vec4i(v * 9.0)), 0xFE03FF7Fu)), \
+         f32(dot4U8Packed(pack4xU8(vec4u(abs(v) * 9.0)), 0xFE03FF7Fu)), 0, 0)",
+        |v| {
+            let dot = |bytes: [i32; 4], by: [i32; 4]| {
+                bytes.iter().zip(by).map(|(a, b)| a * b).sum::<i32>() as f32
+            };
+            let signed = v.map(|one| i32::from((one * 9.0) as i32 as i8));
+            let unsigned = v.map(|one| i32::from((one.abs() * 9.0) as u32 as u8));
+            [
+                dot(signed, [127, -1, 3, -2]),
+                dot(unsigned, [127, 255, 3, 254]),
+                0.0,
+                0.0,
+            ]
+        },
+    );
     check_expression("unpack4x8unorm(pack4x8unorm(v))", |v| {
         v.map(|one| (0.5 + one.clamp(0.0, 1.0) * 255.0).floor() / 255.0)
     });

@@ -60,6 +60,16 @@ impl<'a> Lowering<'a> {
             | F::Unpack2x16snorm
             | F::Unpack2x16unorm
             | F::Unpack2x16float => Some(self.unpack(function, arguments[0][0])),
+            F::Pack4xI8 | F::Pack4xU8 | F::Pack4xI8Clamp | F::Pack4xU8Clamp => {
+                Some(vec![self.pack_bytes(function, &arguments[0])])
+            }
+            F::Unpack4xI8 | F::Unpack4xU8 => {
+                Some(self.unpack_bytes(arguments[0][0], function == F::Unpack4xI8))
+            }
+            F::Dot4I8Packed | F::Dot4U8Packed => {
+                let words = [arguments[0][0], arguments[1][0]];
+                Some(vec![self.dot_of_bytes(words, function == F::Dot4I8Packed)])
+            }
             F::Modf => Some(self.modf(&arguments[0])),
             F::Frexp => Some(self.frexp(&arguments[0])),
             _ => None,

@@ -70,4 +70,43 @@ impl Lowering<'_> {
         };
         (0..count).map(part).collect()
     }
+
+    /// Four integers in the bytes of a word, the first in the lowest; clamped to their range, or
+    /// their lowest bits.
+    pub(super) fn pack_bytes(&mut self, function: MathFunction, values: &[Value]) -> Value {
+        use MathFunction as F;
+        let mut word = self.builder.word(0);
+        for (at, &value) in (0..).zip(values) {
+            let (limits, kinds) = match function {
+                F::Pack4xI8Clamp => (Some([-128, 127]), [Binary::SMax, Binary::SMin]),
+                F::Pack4xU8Clamp => (Some([0, 255]), [Binary::UMax, Binary::UMin]),
+                _ => (None, [Binary::Or; 2]),
+            };
+            let mut code = value;
+            for (kind, limit) in kinds.into_iter().zip(limits.into_iter().flatten()) {
+                let limit = self.builder.word(i32::cast_unsigned(limit));
+                code = self.builder.binary(kind, code, limit);
+            }
+            let [mask, by] = [0xFF, 8 * at].map(|word| self.builder.word(word));
+            let code = self.builder.binary(Binary::And, code, mask);
+            let moved = self.builder.binary(Binary::Shl, code, by);
+            word = self.builder.binary(Binary::Or, word, moved);
+        }
+        word
+    }
+
+    /// The four bytes of a word as integers, the lowest first.
+    pub(super) fn unpack_bytes(&mut self, word: Value, is_signed: bool) -> Vec<Value> {
+        let byte = |at: u32| {
+            let [offset, width] = [8 * at, 8].map(|word| self.builder.word(word));
+            self.extract_bits(word, [offset, width], is_signed)
+        };
+        (0..4).map(byte).collect()
+    }
+
+    /// The sum of the products of two words' bytes.
+    pub(super) fn dot_of_bytes(&mut self, words: [Value; 2], is_signed: bool) -> Value {
+        let bytes = words.map(|word| self.unpack_bytes(word, is_signed));
+        self.integer_dot(&bytes)
+    }
 }
