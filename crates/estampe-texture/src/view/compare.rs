@@ -43,7 +43,7 @@ impl SampledTexture {
     /// channel.
     #[inline(never)]
     pub(crate) fn compare_lanes(&self, lanes: &PacketRequest<'_>, answers: &mut Answers) {
-        if !self.sample_packet(lanes, answers, true) {
+        if self.sample_packet(lanes, answers, true).is_none() {
             for lane in 0..lanes.count {
                 answer(answers, lane, self.compare_lane(lanes, lane));
             }

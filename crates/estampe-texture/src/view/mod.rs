@@ -24,7 +24,7 @@
 //!   level among the lanes.
 //! * `sample.rs` is the scalar code, lane by lane: integers and stencil, fewer than sixteen lanes,
 //!   the scalar SIMD level, and the lanes that the packet code leaves out (texels across a border
-//!   or a cube's edge, or with an offset).
+//!   or a cube's edge).
 //!
 //! Gathers (`gather.rs`) are lane by lane as well; so are fetches (`fetch.rs`) that their packet
 //! code (`packet_fetch.rs`, and `blocks.rs` for rows of neighbours) cannot do. What a pass reads of

@@ -172,4 +172,17 @@ impl SampledTexture {
     pub fn gather_compare_request(&self, request: &PacketRequest<'_>, results: &mut Colors) {
         *results = self.gather_compare_lanes(request);
     }
+
+    /// Samples, or compares, sixteen lanes by packet code. Returns the lanes that the scalar code
+    /// sampled after all, lane `i` as bit `i`; `None` if there is no packet code. For tests.
+    #[doc(hidden)]
+    #[inline(never)]
+    pub fn sample_by_packet(
+        &self,
+        request: &PacketRequest<'_>,
+        compares: bool,
+        colors: &mut Colors,
+    ) -> Option<u32> {
+        self.sample_packet(request, colors, compares)
+    }
 }

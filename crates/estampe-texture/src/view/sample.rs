@@ -48,7 +48,7 @@ impl SampledTexture {
     /// Samples lanes: by packet code if possible, else lane by lane.
     #[inline(never)]
     pub(crate) fn sample_lanes(&self, lanes: &PacketRequest<'_>, colors: &mut Answers) {
-        if !self.sample_packet(lanes, colors, false) {
+        if self.sample_packet(lanes, colors, false).is_none() {
             for lane in 0..lanes.count {
                 answer(colors, lane, self.sample_lane(lanes, lane));
             }

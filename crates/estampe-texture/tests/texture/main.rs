@@ -16,6 +16,7 @@ mod gather;
 mod gradients;
 mod mip_levels;
 mod naive;
+mod offsets;
 mod pixel_blocks;
 mod requests;
 mod several;

@@ -8,8 +8,7 @@
 //! formats in `inside.rs`; everything else takes the general code in `general.rs`.
 //!
 //! If the texels of a lane are not all within its level, and that needs more than a wrapped index
-//! (a border, an offset, a cube's edge), the scalar code samples the lane again: there are few such
-//! lanes.
+//! (a border, a cube's edge), the scalar code samples the lane again: there are few such lanes.
 
 mod ahead;
 mod batch;
@@ -26,6 +25,7 @@ mod planes;
 mod shifts;
 mod square;
 mod taps;
+mod wrapped;
 
 pub(crate) use super::packet_texel::PacketFormat;
 pub(crate) use each_level::LevelTable;
@@ -40,20 +40,18 @@ use estampe_types::Real;
 use estampe_types::state::CompareFunction;
 
 impl SampledTexture {
-    /// Samples or compares sixteen lanes; `false`, with nothing stored, if packet code cannot
-    /// do it.
+    /// Samples or compares sixteen lanes. Returns the lanes that the scalar code sampled; `None`,
+    /// with nothing stored, if packet code cannot do it.
     #[inline(always)]
     pub(crate) fn sample_packet(
         &self,
         lanes: &PacketRequest<'_>,
         answers: &mut Answers,
         compares: bool,
-    ) -> bool {
-        let Some(format) = self.packets else {
-            return false;
-        };
+    ) -> Option<u32> {
+        let format = self.packets?;
         if lanes.count != LANES {
-            return false;
+            return None;
         }
         let compares = compares.then(|| self.sampler.compare.unwrap_or(CompareFunction::Never));
         let packet = Packet {
@@ -68,10 +66,7 @@ impl SampledTexture {
             packet.enter::<1>(answers)
         } else {
             packet.enter_kind(answers)
-        };
-        let Some(again) = again else {
-            return false;
-        };
+        }?;
         for lane in 0..LANES {
             if again >> lane & 1 == 1 {
                 let channels = if compares.is_some() {
@@ -82,7 +77,7 @@ impl SampledTexture {
                 answer(answers, lane, channels);
             }
         }
-        true
+        Some(again)
     }
 }
 

@@ -3,6 +3,7 @@
 
 use super::Packet;
 use super::face::Face;
+use super::wrapped::wrapped;
 use crate::view::axis::FAR;
 use crate::view::coordinates::load;
 use crate::view::plane::Plane;
@@ -130,14 +131,27 @@ impl Packet<'_> {
             } else {
                 at.floor().clamp(low, high)
             };
-            return Self::unwrapped(at, 0, count, is_linear, outside);
+            let border = AddressMode::ClampToBorder;
+            return in_integers(at, 0, (count, border), is_linear, outside);
         }
-        if !self.is_plain(axis) {
-            let at = at * length;
-            let at = if is_linear { at - 0.5 } else { at };
-            let offset = self.lanes.offset[axis].clamp(-1024, 1024);
-            return Self::unwrapped(at.clamp(-FAR, FAR), offset, count, is_linear, outside);
+        if self.is_plain(axis) {
+            self.plain_places(plane, at, axis, filter)
+        } else {
+            self.moved_places(plane, at, axis, is_linear, outside)
         }
+    }
+
+    /// The texels along an axis of a coordinate that is [wrapped](wrap) already, where that is
+    /// enough.
+    #[inline(always)]
+    pub(super) fn plain_places<R: Real>(
+        &self,
+        plane: &Plane,
+        at: R,
+        axis: usize,
+        filter: FilterMode,
+    ) -> Places<R> {
+        let (count, length) = (plane.sides[axis], plane.size[axis]);
         let mode = self.mode(axis);
         let place = place(at, length, mode, filter);
         let next = place.texel + place.texel.splat(1);
@@ -152,26 +166,50 @@ impl Packet<'_> {
         }
     }
 
-    /// The texels of a coordinate without wrapping, clamped to the level; lanes with a texel
-    /// outside are added to `outside`.
+    /// The texels along an axis of a coordinate, moved by the offset and each wrapped by itself;
+    /// lanes with a border texel are added to `outside`.
     #[inline(always)]
-    fn unwrapped<R: Real>(
-        at: R,
-        offset: i32,
-        count: i32,
+    pub(super) fn moved_places<R: Real>(
+        &self,
+        plane: &Plane,
+        u: R,
+        axis: usize,
         is_linear: bool,
         outside: &mut u64,
     ) -> Places<R> {
-        let whole = at.floor();
-        let first = whole.to_int_within_range();
-        let first = first + first.splat(offset);
+        let at = u * plane.size[axis];
+        let at = if is_linear { at - 0.5 } else { at };
+        let offset = self.lanes.offset[axis].clamp(-1024, 1024);
+        let side = (plane.sides[axis], self.mode(axis));
+        in_integers(at.clamp(-FAR, FAR), offset, side, is_linear, outside)
+    }
+}
+
+/// The texels of a texel coordinate: its integer part and the next one are moved by the offset,
+/// then wrapped. With [`AddressMode::ClampToBorder`] they are clamped to the level instead, and
+/// lanes with a texel outside are added to `outside`.
+#[inline(always)]
+fn in_integers<R: Real>(
+    at: R,
+    offset: i32,
+    (count, mode): (i32, AddressMode),
+    is_linear: bool,
+    outside: &mut u64,
+) -> Places<R> {
+    let whole = at.floor();
+    let first = whole.to_int_within_range();
+    let first = first + first.splat(offset);
+    let texels = if mode == AddressMode::ClampToBorder {
         let room = if is_linear { count - 1 } else { count };
         *outside |= R::mask_bits(first.is_outside(room));
         let (zero, last) = (first.splat(0), first.splat(count - 1));
         let next = first + first.splat(1);
-        Places {
-            texels: [first.max(zero).min(last), next.max(zero).min(last)],
-            fraction: at - whole,
-        }
+        [first.max(zero).min(last), next.max(zero).min(last)]
+    } else {
+        wrapped(at, first, count, mode)
+    };
+    Places {
+        texels,
+        fraction: at - whole,
     }
 }
