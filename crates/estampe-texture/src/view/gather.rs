@@ -1,5 +1,5 @@
-//! Texel gathering: one channel of the four texels around a coordinate in the base level, lane by
-//! lane.
+//! Texel gathering: one channel, or the comparison, of the four texels around a coordinate in the
+//! base level; the scalar code, lane by lane.
 
 use super::PacketRequest;
 use super::SampledTexture;
@@ -10,32 +10,52 @@ use estampe_types::ViewDimension;
 
 /// From upper left, upper right, lower left, lower right to the order of shading languages: lower
 /// left, lower right, upper right, upper left.
-const ORDER: [usize; 4] = [2, 3, 1, 0];
+pub(super) const ORDER: [usize; 4] = [2, 3, 1, 0];
 
 impl SampledTexture {
-    /// Gathers a channel, lane by lane.
+    /// Gathers a channel of lanes: by packet code if possible, else lane by lane.
     #[inline(never)]
-    pub(crate) fn gather_lanes(&self, lanes: &PacketRequest<'_>, channel: usize) -> Answers {
-        let mut texels = Answers::default();
-        let codec = &self.view.codec;
-        for lane in 0..lanes.count {
-            let four = self.four(lanes, lane, &Channels);
-            let four = four.map(|unit| codec.finish(unit)[channel & 3]);
-            answer(&mut texels, lane, ORDER.map(|index| four[index]));
+    pub(crate) fn gather_lanes(
+        &self,
+        lanes: &PacketRequest<'_>,
+        channel: usize,
+        texels: &mut Answers,
+    ) {
+        if self.gather_packet(lanes, Some(channel), texels).is_none() {
+            for lane in 0..lanes.count {
+                answer(texels, lane, self.gather_lane(lanes, lane, channel));
+            }
         }
-        texels
     }
 
-    /// Gathers comparison results, lane by lane.
+    /// Gathers a channel of one lane.
+    pub(crate) fn gather_lane(
+        &self,
+        lanes: &PacketRequest<'_>,
+        lane: usize,
+        channel: usize,
+    ) -> [f32; 4] {
+        let codec = &self.view.codec;
+        let four = self.four(lanes, lane, &Channels);
+        let four = four.map(|unit| codec.finish(unit)[channel & 3]);
+        ORDER.map(|index| four[index])
+    }
+
+    /// Gathers comparison results of lanes: by packet code if possible, else lane by lane.
     #[inline(never)]
-    pub(crate) fn gather_compare_lanes(&self, lanes: &PacketRequest<'_>) -> Answers {
-        let mut answers = Answers::default();
-        for lane in 0..lanes.count {
-            let comparison = self.comparison(lanes.reference.0[lane]);
-            let four = self.four(lanes, lane, &comparison);
-            answer(&mut answers, lane, ORDER.map(|index| four[index][0]));
+    pub(crate) fn gather_compare_lanes(&self, lanes: &PacketRequest<'_>, results: &mut Answers) {
+        if self.gather_packet(lanes, None, results).is_none() {
+            for lane in 0..lanes.count {
+                answer(results, lane, self.gather_compare_lane(lanes, lane));
+            }
         }
-        answers
+    }
+
+    /// Gathers comparison results of one lane.
+    pub(crate) fn gather_compare_lane(&self, lanes: &PacketRequest<'_>, lane: usize) -> [f32; 4] {
+        let comparison = self.comparison(lanes.reference.0[lane]);
+        let four = self.four(lanes, lane, &comparison);
+        ORDER.map(|index| four[index][0])
     }
 
     /// The four texels around a lane's coordinates: upper left, upper right, lower left, lower

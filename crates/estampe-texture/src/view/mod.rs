@@ -26,8 +26,9 @@
 //!   the scalar SIMD level, and the lanes that the packet code leaves out (texels across a border
 //!   or a cube's edge).
 //!
-//! Gathers (`gather.rs`) are lane by lane as well; so are fetches (`fetch.rs`) that their packet
-//! code (`packet_fetch.rs`, and `blocks.rs` for rows of neighbours) cannot do. What a pass reads of
+//! Gathers have packet code for 2D views (`packet/gather.rs`), and fetches for most requests
+//! (`packet_fetch.rs`, and `blocks.rs` for rows of neighbours); the others are lane by lane
+//! (`gather.rs`, `fetch.rs`). What a pass reads of
 //! another one at its own pixels alone, it loads where it is stored (`tiled_texels.rs`).
 
 mod axis;

@@ -164,13 +164,13 @@ impl SampledTexture {
 
     /// A channel of four texels for sixteen lanes, as [`gather`](Self::gather) gives them.
     pub fn gather_request(&self, request: &PacketRequest<'_>, channel: usize, texels: &mut Colors) {
-        *texels = self.gather_lanes(request, channel);
+        self.gather_lanes(request, channel, texels);
     }
 
     /// The comparisons of four texels for sixteen lanes, as
     /// [`gather_compare`](Self::gather_compare) gives them.
     pub fn gather_compare_request(&self, request: &PacketRequest<'_>, results: &mut Colors) {
-        *results = self.gather_compare_lanes(request);
+        self.gather_compare_lanes(request, results);
     }
 
     /// Samples, or compares, sixteen lanes by packet code. Returns the lanes that the scalar code
@@ -184,5 +184,19 @@ impl SampledTexture {
         colors: &mut Colors,
     ) -> Option<u32> {
         self.sample_packet(request, colors, compares)
+    }
+
+    /// Gathers a channel of sixteen lanes, or comparison results if it is `None`, by packet code.
+    /// Returns the lanes that the scalar code gathered after all, lane `i` as bit `i`; `None` if
+    /// there is no packet code. For tests.
+    #[doc(hidden)]
+    #[inline(never)]
+    pub fn gather_by_packet(
+        &self,
+        request: &PacketRequest<'_>,
+        channel: Option<usize>,
+        texels: &mut Colors,
+    ) -> Option<u32> {
+        self.gather_packet(request, channel, texels)
     }
 }

@@ -165,7 +165,11 @@ impl SampledTexture {
                             more,
                             first,
                             #[inline(always)]
-                            |lanes| self.gather_lanes(lanes, channel),
+                            |lanes| {
+                                let mut texels = Answers::default();
+                                self.gather_lanes(lanes, channel, &mut texels);
+                                texels
+                            },
                         )
                     },
                 )
@@ -241,7 +245,11 @@ impl SampledTexture {
                             more,
                             first,
                             #[inline(always)]
-                            |lanes| self.gather_compare_lanes(lanes),
+                            |lanes| {
+                                let mut results = Answers::default();
+                                self.gather_compare_lanes(lanes, &mut results);
+                                results
+                            },
                         )
                     },
                 )

@@ -17,6 +17,7 @@ mod gradients;
 mod mip_levels;
 mod naive;
 mod offsets;
+mod packet_gathers;
 mod pixel_blocks;
 mod requests;
 mod several;

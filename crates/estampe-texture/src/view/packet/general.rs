@@ -265,7 +265,7 @@ impl Packet<'_> {
     /// If the texels are neighbours in memory, their words are loaded as squares, which takes half
     /// as long as a gather of each.
     #[inline(always)]
-    fn words<S: SimdLanes>(
+    pub(super) fn words<S: SimdLanes>(
         &self,
         s: S,
         plane: &Plane,
@@ -322,7 +322,7 @@ impl Packet<'_> {
 
     /// The reference of comparisons; for fixed-point depths it is clamped to 0..=1.
     #[inline(always)]
-    fn reference<R: Real>(&self, like: R) -> R {
+    pub(super) fn reference<R: Real>(&self, like: R) -> R {
         let reference = load(like, self.lanes.reference, 0);
         if self.format.is_fixed_depth() {
             reference.saturate()

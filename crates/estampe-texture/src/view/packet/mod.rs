@@ -5,7 +5,8 @@
 //! to its SIMD level itself, so it is compiled once, in this crate, and not into every shader.
 //!
 //! Linear filtering of formats of bytes is in `bytes.rs`, the common case of a packet of other
-//! formats in `inside.rs`; everything else takes the general code in `general.rs`.
+//! formats in `inside.rs`; everything else takes the general code in `general.rs`. Gathers are in
+//! `gather.rs`.
 //!
 //! If the texels of a lane are not all within its level, and that needs more than a wrapped index
 //! (a border, a cube's edge), the scalar code samples the lane again: there are few such lanes.
@@ -18,6 +19,7 @@ mod each_level;
 mod face;
 mod filter;
 mod footprint;
+mod gather;
 mod general;
 mod inside;
 mod places;
