@@ -3,6 +3,7 @@
 use crate::frame::{FrameSize, PreparedScene};
 use crate::measure::{Effort, measure};
 use crate::models::write_models;
+use crate::operations::{self, OperationsArguments};
 use crate::picture::{Difference, Picture};
 use crate::report::{self, Report, Row};
 use crate::scene::{self, Detail, Scene, SceneEntry, ShaderLanguage};
@@ -95,6 +96,8 @@ pub enum Task {
     },
     /// Measures the cost of each state of the pipeline
     States(StatesArguments),
+    /// Measures the cost of each operation of shaders as text
+    Operations(OperationsArguments),
 }
 
 /// The result of comparing pictures.
@@ -177,6 +180,10 @@ pub fn run(arguments: &Arguments, out: &mut impl Write) -> Result<Outcome, Bench
         }
         Some(Task::States(states)) => {
             states::run(states, out)?;
+            return Ok(Outcome::Agreement);
+        }
+        Some(Task::Operations(operations)) => {
+            operations::run(operations, out)?;
             return Ok(Outcome::Agreement);
         }
         Some(Task::Models { folder }) => {

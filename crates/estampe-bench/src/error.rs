@@ -1,8 +1,8 @@
 //! Errors of the benchmarks.
 
 use estampe::{
-    BindGroupError, BufferError, ComputePipelineError, DeviceError, LevelError, PipelineError,
-    RenderPassError, ShaderErrors, ShaderModuleError, TextureError,
+    BindGroupError, BufferError, ComputePipelineError, DeviceError, DispatchError, LevelError,
+    PipelineError, RenderPassError, ShaderErrors, ShaderModuleError, TextureError,
 };
 use std::path::PathBuf;
 
@@ -24,6 +24,16 @@ pub enum BenchError {
         /// The requested name.
         name: String,
         /// The names of all states.
+        known: String,
+    },
+    /// No operation has this name.
+    #[error(
+        "no operation and no group of operations is named '{name}'; the operations are {known}"
+    )]
+    UnknownOperation {
+        /// The requested name.
+        name: String,
+        /// The names of all operations.
         known: String,
     },
     /// The scenes have no shaders in Rust.
@@ -59,6 +69,9 @@ pub enum BenchError {
     /// A texture was refused.
     #[error(transparent)]
     Texture(#[from] TextureError),
+    /// A dispatch was refused.
+    #[error(transparent)]
+    Dispatch(#[from] DispatchError),
     /// A pass was refused.
     #[error(transparent)]
     Pass(#[from] RenderPassError),
@@ -104,6 +117,7 @@ impl BenchError {
             self,
             Self::UnknownScene { .. }
                 | Self::UnknownState { .. }
+                | Self::UnknownOperation { .. }
                 | Self::WgslOnly { .. }
                 | Self::Level(_)
                 | Self::Device(_)

@@ -16,7 +16,8 @@
 //!   times and measures with the [`clock`];
 //! * [`picture`] writes, reads and compares pictures; [`report`] writes tables and JSON;
 //! * [`stages`] has loads that stress one stage each; [`states`] measures the cost of each state of
-//!   the pipeline; [`growth`] measures how cost grows with triangles, pixels and cores;
+//!   the pipeline, [`operations`] that of each operation of shaders as text, and [`growth`] how
+//!   cost grows with triangles, pixels and cores;
 //! * `models` writes the files with which the whole process, `estampe render`, is measured;
 //! * [`versus`] runs estampe and lavapipe in turn; [`document`] writes tables into PERFORMANCE.md,
 //!   under a line of [`provenance`];
@@ -30,6 +31,7 @@ pub mod generate;
 pub mod growth;
 pub mod measure;
 mod models;
+pub mod operations;
 pub mod picture;
 pub mod provenance;
 pub mod report;
